@@ -84,7 +84,10 @@ TEST(CameraModel, SeesNothingBehindItself) {
 }
 
 TEST(CameraModel, RefusesRaysWhereTheDistortionFoldsBack) {
-  EXPECT_FALSE(euroc().project({5.0, 0.0, 1.0}));
+  CameraModel camera = euroc();
+  camera.coefficients = {-0.3, 0.01, 0.0, 0.0, 0.0};
+  EXPECT_TRUE(camera.project({0.9, 0.0, 1.0}));
+  EXPECT_FALSE(camera.project({1.5, 0.0, 1.0}));
 }
 
 }  // namespace
