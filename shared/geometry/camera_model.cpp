@@ -1,6 +1,7 @@
 #include "shared/geometry/camera_model.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 
 namespace cosight {
@@ -78,6 +79,25 @@ std::optional<Distorted> distort(const CameraModel& camera, const Vector2& n) {
   return Distorted{n, Matrix2::Identity()};
 }
 
+/// Where Newton's method starts: for a fisheye the angle is nearly the radius, and its tangent is far from
+/// it.
+Vector2 first_guess(const CameraModel& camera, const Vector2& target) {
+  if (camera.distortion != Distortion::kEquidistant) return target;
+  const double theta_d = target.norm();
+  if (theta_d < 1e-8) return target;
+  const auto& k = camera.coefficients;
+  constexpr double kMaxAngle = 1.57;
+  double theta = std::min(theta_d, kMaxAngle);
+  for (int i = 0; i < 10; ++i) {
+    const double t2 = theta * theta;
+    const double value = theta * (1.0 + t2 * (k[0] + t2 * (k[1] + t2 * (k[2] + t2 * k[3]))));
+    const double slope = 1.0 + t2 * (3.0 * k[0] + t2 * (5.0 * k[1] + t2 * (7.0 * k[2] + t2 * 9.0 * k[3])));
+    if (slope <= 0.0) break;
+    theta = std::clamp(theta + (theta_d - value) / slope, 0.0, kMaxAngle);
+  }
+  return std::tan(theta) / theta_d * target;
+}
+
 }  // namespace
 
 std::optional<Eigen::Vector2d> CameraModel::project(const Eigen::Vector3d& p_C,
@@ -99,11 +119,11 @@ std::optional<Eigen::Vector3d> CameraModel::unproject(const Eigen::Vector2d& pix
                                                       Eigen::Matrix<double, 3, 2>* J) const {
   const Vector2 target((pixel.x() - cx) / fx, (pixel.y() - cy) / fy);
   if (!target.allFinite()) return std::nullopt;
-  Vector2 n = target;
+  Vector2 n = first_guess(*this, target);
   Matrix2 J_d = Matrix2::Identity();
   if (distortion != Distortion::kNone) {
     constexpr int kMaxIterations = 30;
-    constexpr double kTolerance = 1e-12;
+    const double tolerance = 1e-12 * std::max(1.0, n.norm());
     bool converged = false;
     for (int i = 0; i < kMaxIterations && !converged; ++i) {
       const auto d = distort(*this, n);
@@ -114,7 +134,7 @@ std::optional<Eigen::Vector3d> CameraModel::unproject(const Eigen::Vector2d& pix
       J_d = d->J;
       const Vector2 step = J_d.inverse() * (target - d->xy);
       n += step;
-      converged = step.squaredNorm() < kTolerance * kTolerance;
+      converged = step.squaredNorm() < tolerance * tolerance;
     }
     if (!converged || !n.allFinite()) return std::nullopt;
     const auto d = distort(*this, n);
