@@ -21,7 +21,7 @@ CameraModel euroc() {
 }
 CameraModel fisheye() {
   return {
-      190.9, 190.9, 254.9, 256.8, 512, 512, Distortion::kEquidistant, {0.0034, 0.0007, -0.0020, 0.0002, 0.0}};
+      260.9, 260.9, 254.9, 256.8, 512, 512, Distortion::kEquidistant, {0.0034, 0.0007, -0.0020, 0.0002, 0.0}};
 }
 CameraModel scenelib() {
   return {195.0, 195.0, 162.0, 125.0, 320, 240, Distortion::kScenelibWide, {9.0e-6, 0.0, 0.0, 0.0, 0.0}};
