@@ -1,0 +1,62 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "robot_agent/ekf/triangulation.hpp"
+
+namespace cosight::ekf {
+
+/// Stays the same from a landmark's start to its removal, and is never used again.
+using LandmarkId = std::uint64_t;
+
+enum class MeasurementKind { kPixel, kPoint };
+
+/// A landmark seen in one frame: as a pixel of the SLAM camera (2 rows, C6) or, when the free camera saw it
+/// as well, as a point (3 rows, C5). The point holds the pixel already: give one or the other.
+struct Measurement {
+  LandmarkId landmark = 0;
+  MeasurementKind kind = MeasurementKind::kPixel;
+  Eigen::Vector3d z = Eigen::Vector3d::Zero();      ///< pixel (u, v, -) [px], or z_e in S [m]
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();  ///< its covariance, upper left 2x2 for a pixel
+  /// Covariance between the points of one frame: B_i B_j^T (see PointMeasurement). Zero when independent.
+  Eigen::Matrix<double, 3, 6> shared_factor = Eigen::Matrix<double, 3, 6>::Zero();
+
+  static Measurement pixel(LandmarkId landmark, const Eigen::Vector2d& z, double sigma);
+  static Measurement point(LandmarkId landmark, const PointMeasurement& measured);
+
+  int rows() const { return kind == MeasurementKind::kPixel ? 2 : 3; }
+};
+
+enum class Outcome {
+  kFused,
+  kUnpredictable,   ///< no such landmark, behind the camera, outside the lens model, or at infinity (points)
+  kGated,           ///< outside its own gate
+  kIncompatible,    ///< taken out by the joint compatibility test
+  kIllConditioned,  ///< the joint innovation covariance could not be inverted: nothing was fused
+};
+const char* to_string(Outcome outcome);
+
+/// What one measurement did to the filter; same shape for pixels and points.
+struct MeasurementReport {
+  LandmarkId landmark = 0;
+  MeasurementKind kind = MeasurementKind::kPixel;
+  int rows = 2;
+  Eigen::Vector3d innovation = Eigen::Vector3d::Zero();      ///< z - h(x), first `rows` entries
+  Eigen::Vector3d innovation_std = Eigen::Vector3d::Zero();  ///< sqrt(diag S)
+  double nis = 0.0;                                          ///< g^T S^-1 g of this measurement alone
+  double gate = 0.0;                                         ///< chi-squared limit it was held against
+  Outcome outcome = Outcome::kUnpredictable;
+};
+
+/// What one update did.
+struct UpdateReport {
+  std::vector<MeasurementReport> measurements;  ///< in the order they were given
+  int fused = 0;
+  int rows = 0;      ///< fused rows, the degrees of freedom of `nis`
+  double nis = 0.0;  ///< g^T S^-1 g of all fused together
+  int iterations = 0;
+};
+
+}  // namespace cosight::ekf

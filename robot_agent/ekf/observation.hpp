@@ -1,0 +1,58 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "robot_agent/ekf/camera_state.hpp"
+#include "robot_agent/ekf/inverse_depth_point.hpp"
+#include "shared/geometry/camera_model.hpp"
+
+namespace cosight::ekf {
+
+/// Jacobians of an observation of `Rows` rows of a landmark with `Landmark` parameters. Velocities are not
+/// seen by any measurement: the camera's part stops after position and orientation.
+template <int Rows, int Landmark>
+struct ObservationJacobians {
+  Eigen::Matrix<double, Rows, CameraState::kPoseDim> H_camera;
+  Eigen::Matrix<double, Rows, Landmark> H_landmark;
+};
+
+/// The landmark as a pixel of the SLAM camera (C6, C7):
+///
+///   h_c = R_WS^T ( rho ([x y z] - r_WS) + m(theta, phi) ),   then pinhole and lens.        [px]
+///
+/// Scaled by rho, so that points at infinity (rho = 0, and a little beyond) are as good as any. Nothing when
+/// the point is behind the camera or outside the lens model.
+struct BearingObservation {
+  static constexpr int kDim = 2;
+  using Jacobians = ObservationJacobians<kDim, InverseDepthPoint::kDim>;
+  using PointJacobians = ObservationJacobians<kDim, 3>;
+
+  CameraModel camera;
+
+  std::optional<Eigen::Vector2d> predict(const CameraState& x, const InverseDepthPoint& y,
+                                         Jacobians* jacobians = nullptr) const;
+  /// The same of a landmark kept as a point of W: h_c = R_WS^T (p_W - r_WS).
+  std::optional<Eigen::Vector2d> predict(const CameraState& x, const Eigen::Vector3d& p_W,
+                                         PointJacobians* jacobians = nullptr) const;
+};
+
+/// The landmark as a point in the SLAM camera (C5):
+///
+///   h_e = R_WS^T ( [x y z] + m(theta, phi) / rho - r_WS )                                   [m, axes of S]
+///
+/// Nothing when the landmark is at infinity (rho <= min_inverse_depth) or behind the camera.
+struct EuclideanObservation {
+  static constexpr int kDim = 3;
+  using Jacobians = ObservationJacobians<kDim, InverseDepthPoint::kDim>;
+  using PointJacobians = ObservationJacobians<kDim, 3>;
+
+  double min_inverse_depth = 1e-3;  ///< [1/m]
+
+  std::optional<Eigen::Vector3d> predict(const CameraState& x, const InverseDepthPoint& y,
+                                         Jacobians* jacobians = nullptr) const;
+  std::optional<Eigen::Vector3d> predict(const CameraState& x, const Eigen::Vector3d& p_W,
+                                         PointJacobians* jacobians = nullptr) const;
+};
+
+}  // namespace cosight::ekf
