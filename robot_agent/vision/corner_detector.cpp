@@ -1,0 +1,132 @@
+#include "robot_agent/vision/corner_detector.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <opencv2/features2d.hpp>
+
+#include "robot_agent/vision/opencv_view.hpp"
+
+namespace cosight::vision {
+namespace {
+
+struct RankedCorner {
+  Corner corner;
+  int cell = 0;
+  int rank = 0;  ///< corners and occupied pixels of its cell that come before it
+};
+
+/// Counts per cell of a grid over the image.
+class CellCounts {
+ public:
+  CellCounts(const GrayImage& image, int cell)
+      : cell_(cell), columns_(image.width / cell + 1), rows_(image.height / cell + 1) {
+    counts_.resize(static_cast<std::size_t>(columns_ * rows_), 0);
+  }
+  int cell_of(const Eigen::Vector2d& pixel) const {
+    const int column = std::clamp(static_cast<int>(pixel.x()) / cell_, 0, columns_ - 1);
+    const int row = std::clamp(static_cast<int>(pixel.y()) / cell_, 0, rows_ - 1);
+    return row * columns_ + column;
+  }
+  int count_one_more(int cell) { return counts_[static_cast<std::size_t>(cell)]++; }
+
+ private:
+  int cell_;
+  int columns_;
+  int rows_;
+  std::vector<int> counts_;
+};
+
+/// FAST's corners inside the bounding box of the region, in whole image coordinates.
+std::vector<Eigen::Vector2d> propose(const GrayImage& image, const CornerOptions& options,
+                                     const ConvexPolygon* roi) {
+  constexpr int kFastRadius = 3;
+  const int border = std::max(options.border, 4);
+  cv::Rect box(border, border, image.width - 2 * border, image.height - 2 * border);
+  if (roi != nullptr) {
+    if (roi->size() < 3) return {};
+    const Rectangle bounds = bounding_box(*roi);
+    const cv::Point low(static_cast<int>(std::floor(bounds.min.x())),
+                        static_cast<int>(std::floor(bounds.min.y())));
+    const cv::Point high(static_cast<int>(std::ceil(bounds.max.x())) + 1,
+                         static_cast<int>(std::ceil(bounds.max.y())) + 1);
+    box &= cv::Rect(low, high);
+  }
+  if (box.width <= 0 || box.height <= 0) return {};
+  const cv::Rect searched(box.x - kFastRadius, box.y - kFastRadius, box.width + 2 * kFastRadius,
+                          box.height + 2 * kFastRadius);
+  std::vector<cv::KeyPoint> keypoints;
+  cv::FAST(opencv_view(image)(searched), keypoints, options.fast_threshold, true);
+  std::vector<Eigen::Vector2d> pixels;
+  pixels.reserve(keypoints.size());
+  for (const cv::KeyPoint& keypoint : keypoints) {
+    const Eigen::Vector2d pixel =
+        Eigen::Vector2d(searched.x, searched.y) + Eigen::Vector2d(keypoint.pt.x, keypoint.pt.y);
+    if (roi == nullptr || contains(*roi, pixel)) pixels.push_back(pixel);
+  }
+  return pixels;
+}
+
+bool is_clear(const Eigen::Vector2d& pixel, const std::vector<Eigen::Vector2d>& taken, double min_distance) {
+  return std::none_of(taken.begin(), taken.end(), [&](const Eigen::Vector2d& other) {
+    return (pixel - other).squaredNorm() < min_distance * min_distance;
+  });
+}
+
+}  // namespace
+
+double shi_tomasi_score(const GrayImage& image, int x, int y) {
+  constexpr int kHalf = 3;
+  int xx = 0;
+  int xy = 0;
+  int yy = 0;
+  for (int v = y - kHalf; v <= y + kHalf; ++v) {
+    const std::uint8_t* above = image.row(v - 1);
+    const std::uint8_t* row = image.row(v);
+    const std::uint8_t* below = image.row(v + 1);
+    for (int u = x - kHalf; u <= x + kHalf; ++u) {
+      const int gx = row[u + 1] - row[u - 1];
+      const int gy = below[u] - above[u];
+      xx += gx * gx;
+      xy += gx * gy;
+      yy += gy * gy;
+    }
+  }
+  const double scale = 1.0 / (4.0 * (2 * kHalf + 1) * (2 * kHalf + 1));
+  const double mean = 0.5 * scale * (xx + yy);
+  const double difference = 0.5 * scale * (xx - yy);
+  return mean - std::hypot(difference, scale * xy);
+}
+
+std::vector<Corner> CornerDetector::detect(const GrayImage& image,
+                                           const std::vector<Eigen::Vector2d>& occupied, int max_corners,
+                                           const ConvexPolygon* roi) const {
+  CellCounts cells(image, options_.cell);
+  for (const Eigen::Vector2d& pixel : occupied)
+    cells.count_one_more(cells.cell_of(pixel));
+  std::vector<RankedCorner> ranked;
+  for (const Eigen::Vector2d& pixel : propose(image, options_, roi)) {
+    if (!is_clear(pixel, occupied, options_.min_distance)) continue;
+    const double score = shi_tomasi_score(image, static_cast<int>(pixel.x()), static_cast<int>(pixel.y()));
+    if (score >= options_.min_score) ranked.push_back({{pixel, score}, cells.cell_of(pixel), 0});
+  }
+  std::stable_sort(ranked.begin(), ranked.end(), [](const RankedCorner& a, const RankedCorner& b) {
+    return a.corner.score > b.corner.score;
+  });
+  for (RankedCorner& candidate : ranked)
+    candidate.rank = cells.count_one_more(candidate.cell);
+  std::stable_sort(ranked.begin(), ranked.end(),
+                   [](const RankedCorner& a, const RankedCorner& b) { return a.rank < b.rank; });
+
+  std::vector<Corner> corners;
+  std::vector<Eigen::Vector2d> taken;
+  for (const RankedCorner& candidate : ranked) {
+    if (static_cast<int>(corners.size()) >= max_corners) break;
+    if (!is_clear(candidate.corner.pixel, taken, options_.min_distance)) continue;
+    corners.push_back(candidate.corner);
+    taken.push_back(candidate.corner.pixel);
+  }
+  return corners;
+}
+
+}  // namespace cosight::vision

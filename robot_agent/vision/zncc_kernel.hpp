@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstdint>
+
+namespace cosight::vision {
+
+/// out[x] = sum over rows r < side and columns c < 16 of templ[16 r + c] * window[stride r + x + c], for
+/// x = 0 … count - 1. Exact integers; the same on every machine. `templ` 32-byte aligned.
+using CorrelateRow = void (*)(const std::int16_t* templ, int side, const std::int16_t* window, int stride,
+                              int count, std::int32_t* out);
+
+/// The plain loop.
+void correlate_row_portable(const std::int16_t* templ, int side, const std::int16_t* window, int stride,
+                            int count, std::int32_t* out);
+
+/// The fastest that this machine runs.
+CorrelateRow fastest_correlate_row();
+
+}  // namespace cosight::vision

@@ -1,0 +1,245 @@
+#include "robot_agent/vision/zncc_scan.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace cosight::vision {
+namespace {
+
+constexpr float kOutside = -2.0F;
+
+std::size_t index(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+ScanRegion::Span clipped_span(double begin, double last, int patch_half, int width) {
+  // Bounds first: a span of a far-off ellipse would not fit an int.
+  const double low = std::max(std::ceil(begin), static_cast<double>(patch_half));
+  const double high = std::min(std::floor(last), static_cast<double>(width - 1 - patch_half));
+  if (!(low <= high)) return {};
+  return {static_cast<int>(low), static_cast<int>(high) + 1};
+}
+
+/// Sets the rows of `region` that lie in the image; returns whether there are any.
+bool set_rows(double first, double last, int patch_half, int height, ScanRegion& region) {
+  region.rows.clear();
+  const double low = std::max(std::ceil(first), static_cast<double>(patch_half));
+  const double high = std::min(std::floor(last), static_cast<double>(height - 1 - patch_half));
+  if (!(low <= high)) return false;
+  region.top = static_cast<int>(low);
+  region.rows.resize(static_cast<std::size_t>(high - low) + 1);
+  return true;
+}
+
+}  // namespace
+
+// Row dy of the ellipse d^T S^-1 d <= n^2: with S^-1 = [a b; b c], dx = (-b dy +- sqrt(b^2 dy^2 - a (c dy^2 -
+// n^2))) / a.
+void ellipse_region(const Eigen::Vector2d& centre, const Eigen::Matrix2d& S, double n_sigmas, int max_half,
+                    int patch_half, const GrayImage& image, ScanRegion& region) {
+  region.rows.clear();
+  const Eigen::Matrix2d information = S.inverse();
+  if (!information.allFinite() || !centre.allFinite() || !(S.determinant() > 0.0)) return;
+  const double a = information(0, 0);
+  const double b = 0.5 * (information(0, 1) + information(1, 0));
+  const double c = information(1, 1);
+  const double reach = std::min(n_sigmas * std::sqrt(S(1, 1)), static_cast<double>(max_half));
+  if (!set_rows(centre.y() - reach, centre.y() + reach, patch_half, image.height, region)) return;
+  for (std::size_t i = 0; i < region.rows.size(); ++i) {
+    const double dy = region.top + static_cast<double>(i) - centre.y();
+    const double discriminant = b * b * dy * dy - a * (c * dy * dy - n_sigmas * n_sigmas);
+    if (discriminant < 0.0) continue;
+    const double middle = -b * dy / a;
+    const double width = std::sqrt(discriminant) / a;
+    const double begin = std::max(middle - width, -static_cast<double>(max_half));
+    const double last = std::min(middle + width, static_cast<double>(max_half));
+    region.rows[i] = clipped_span(centre.x() + begin, centre.x() + last, patch_half, image.width);
+  }
+}
+
+void polygon_region(const ConvexPolygon& polygon, int patch_half, const GrayImage& image,
+                    ScanRegion& region) {
+  region.rows.clear();
+  if (polygon.size() < 3) return;
+  const Rectangle box = bounding_box(polygon);
+  if (!set_rows(box.min.y(), box.max.y(), patch_half, image.height, region)) return;
+  for (std::size_t i = 0; i < region.rows.size(); ++i) {
+    const double y = region.top + static_cast<double>(i);
+    double begin = box.max.x() + 1.0;
+    double last = box.min.x() - 1.0;
+    for (std::size_t k = 0; k < polygon.size(); ++k) {
+      const Eigen::Vector2d& p = polygon[k];
+      const Eigen::Vector2d& q = polygon[(k + 1) % polygon.size()];
+      if ((p.y() < y && q.y() < y) || (p.y() > y && q.y() > y)) continue;
+      if (p.y() == q.y()) {
+        begin = std::min({begin, p.x(), q.x()});
+        last = std::max({last, p.x(), q.x()});
+        continue;
+      }
+      const double x = p.x() + (y - p.y()) / (q.y() - p.y()) * (q.x() - p.x());
+      begin = std::min(begin, x);
+      last = std::max(last, x);
+    }
+    region.rows[i] = clipped_span(begin, last, patch_half, image.width);
+  }
+}
+
+void ZnccScan::load_window(const GrayImage& image, const Patch& patch, int left, int top, int width,
+                           int height) {
+  window_width_ = width;
+  stride_ = width + Patch::kStride;  // the kernel reads a full padded row at the last position
+  window_.resize(index(stride_ * height));
+  for (int y = 0; y < height; ++y) {
+    const std::uint8_t* from = image.row(top + y) + left;
+    std::int16_t* to = window_.data() + index(y * stride_);
+    for (int x = 0; x < width; ++x)
+      to[x] = static_cast<std::int16_t>(from[x] - patch.mean);
+    std::fill(to + width, to + stride_, std::int16_t{0});
+  }
+}
+
+/// Column sums for the row of positions `row`: fresh for the first, then one row in and one row out.
+void ZnccScan::sum_columns(int row, int side) {
+  const auto add = [this](int y, int sign) {
+    const std::int16_t* w = window_.data() + index(y * stride_);
+    for (int x = 0; x < window_width_; ++x) {
+      const std::int32_t value = w[x];
+      column_[index(x)] += sign * value;
+      column2_[index(x)] += sign * value * value;
+    }
+  };
+  if (row > 0) {
+    add(row - 1, -1);
+    add(row + side - 1, 1);
+    return;
+  }
+  column_.assign(index(window_width_), 0);
+  column2_.assign(index(window_width_), 0);
+  for (int y = 0; y < side; ++y)
+    add(y, 1);
+}
+
+// ZNCC = (n sum(t w) - sum(t) sum(w)) / sqrt((n sum(t^2) - sum(t)^2) (n sum(w^2) - sum(w)^2)). Its signed
+// square has the same order and needs no root.
+void ZnccScan::score_row(const Patch& patch, int row, const ScanRegion::Span& span, int left) {
+  const int begin = span.begin - left;
+  const int count = span.end - span.begin;
+  correlate_row_(patch.deviations.data(), patch.side, window_.data() + index(row * stride_ + begin), stride_,
+                 count, products_.data());
+  const int side = patch.side;
+  const double n = side * side;
+  const double min_variation = n * n;  // one gray level of standard deviation
+  const double scale = patch.inverse_norm * patch.inverse_norm;
+  std::int32_t sum = 0;
+  std::int32_t sum2 = 0;
+  for (int c = 0; c < side; ++c) {
+    sum += column_[index(begin + c)];
+    sum2 += column2_[index(begin + c)];
+  }
+  const int scores_stride = window_width_ - side + 1;
+  float* scores = scores_.data() + index(row * scores_stride + begin);
+  for (int x = 0; x < count; ++x) {
+    const double s = sum;
+    const double variation = n * sum2 - s * s;
+    const double covariation = n * products_[index(x)] - patch.sum * s;
+    scores[x] = variation < min_variation
+                    ? 0.0F
+                    : static_cast<float>(covariation * std::abs(covariation) * scale / variation);
+    if (x + 1 < count) {
+      sum += column_[index(begin + x + side)] - column_[index(begin + x)];
+      sum2 += column2_[index(begin + x + side)] - column2_[index(begin + x)];
+    }
+  }
+}
+
+void ZnccScan::find_peaks(const GrayImage& image, const Patch& patch, const ScanRegion& region, int max_peaks,
+                          std::vector<Peak>& peaks) {
+  peaks.clear();
+  int left = image.width;
+  int right = -1;
+  for (const ScanRegion::Span& span : region.rows) {
+    if (span.begin >= span.end) continue;
+    left = std::min(left, span.begin);
+    right = std::max(right, span.end - 1);
+  }
+  if (right < left || patch.is_flat()) return;
+  const int half = patch.half();
+  const int width = right - left + 1;
+  const int height = static_cast<int>(region.rows.size());
+  load_window(image, patch, left - half, region.top - half, width + patch.side - 1, height + patch.side - 1);
+  scores_.assign(index(width * height), kOutside);
+  products_.resize(index(width));
+  for (int y = 0; y < height; ++y) {
+    sum_columns(y, patch.side);
+    const ScanRegion::Span& span = region.rows[index(y)];
+    if (span.begin < span.end) score_row(patch, y, span, left);
+  }
+  const auto is_peak = [&](int x, int y) {
+    const float score = scores_[index(y * width + x)];
+    for (int v = std::max(y - 1, 0); v <= std::min(y + 1, height - 1); ++v) {
+      for (int u = std::max(x - 1, 0); u <= std::min(x + 1, width - 1); ++u) {
+        const float other = scores_[index(v * width + u)];
+        // Of equal neighbours the first counts.
+        if (other > score || (other == score && v * width + u < y * width + x)) return false;
+      }
+    }
+    return true;
+  };
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const float score = scores_[index(y * width + x)];
+      const auto worst = static_cast<double>(score);
+      const bool full = static_cast<int>(peaks.size()) == max_peaks;
+      if (score <= 0.0F || (full && worst <= peaks.back().score) || !is_peak(x, y)) continue;
+      if (full) peaks.pop_back();
+      const Peak peak{left + x, region.top + y, worst};
+      const auto place = std::upper_bound(peaks.begin(), peaks.end(), peak,
+                                          [](const Peak& a, const Peak& b) { return a.score > b.score; });
+      peaks.insert(place, peak);
+    }
+  }
+  for (Peak& peak : peaks)
+    peak.score = std::sqrt(peak.score);
+}
+
+double ZnccScan::score_at(const GrayImage& image, const Patch& patch, int x, int y) {
+  const int half = patch.half();
+  const double n = patch.side * patch.side;
+  std::int32_t products = 0;
+  std::int32_t sum = 0;
+  std::int32_t sum2 = 0;
+  for (int r = 0; r < patch.side; ++r) {
+    const std::uint8_t* row = image.row(y - half + r) + x - half;
+    const std::int16_t* t = patch.deviations.data() + index(r * Patch::kStride);
+    for (int c = 0; c < patch.side; ++c) {
+      const std::int32_t value = row[c] - patch.mean;
+      products += t[c] * value;
+      sum += value;
+      sum2 += value * value;
+    }
+  }
+  const double variation = n * sum2 - static_cast<double>(sum) * sum;
+  if (variation < n * n) return 0.0;
+  return (n * products - static_cast<double>(patch.sum) * sum) * patch.inverse_norm / std::sqrt(variation);
+}
+
+Eigen::Vector2d ZnccScan::refine(const GrayImage& image, const Patch& patch, const Peak& peak) {
+  const int margin = patch.half() + 1;
+  Eigen::Vector2d top(peak.x, peak.y);
+  if (peak.x < margin || peak.y < margin || peak.x > image.width - 1 - margin ||
+      peak.y > image.height - 1 - margin) {
+    return top;
+  }
+  const auto offset = [&](double before, double after) {
+    const double curvature = before - 2.0 * peak.score + after;
+    if (!(curvature < -1e-9)) return 0.0;
+    return std::clamp(0.5 * (before - after) / curvature, -0.5, 0.5);
+  };
+  top.x() += offset(score_at(image, patch, peak.x - 1, peak.y), score_at(image, patch, peak.x + 1, peak.y));
+  top.y() += offset(score_at(image, patch, peak.x, peak.y - 1), score_at(image, patch, peak.x, peak.y + 1));
+  return top;
+}
+
+}  // namespace cosight::vision
