@@ -28,6 +28,8 @@ struct FrameBundle {
   std::uint64_t sequence = 0;              ///< of the SLAM camera's source
   std::shared_ptr<const GrayImage> image;  ///< null when the frame could not be decoded: predict only
   std::optional<WearerView> wearer;        ///< nothing when no worn frame is near enough in time
+  bool wearer_pose_missing = false;  ///< a worn frame was near enough, but no pose of it: `wearer` is nothing
+  double decode_ms = 0.0;            ///< wall time of decoding both images [ms]
 };
 
 }  // namespace cosight
