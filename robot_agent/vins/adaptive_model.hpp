@@ -1,0 +1,61 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace cosight::vins {
+
+/// How much the window trusts what it sees (the paper's four methods, and one more).
+enum class TrustMode {
+  kFixed,     ///< `vins`: every sighting alike, as VINS-Mono
+  kGeometry,  ///< `ac_g`: by the geometry of the features, V26 without N
+  kTracking,  ///< `ac_gn`: by geometry and by how often the feature was tracked, V26
+  kRobust,    ///< `ac_me`: the same, and a Huber threshold that grows with N, V26 + V30
+  kGuarded,   ///< `ac_me_guarded`: never far from `vins`, see guarded_weight()
+};
+
+const char* to_string(TrustMode mode);
+
+/// What stands in V26 for the weight w = N s / g. The paper calls F_c / 1.5 an information; in VINS-Mono it
+/// is the square root of one.
+enum class InformationReading {
+  kScalesRoot,         ///< root = F_c/1.5 * w: V26 put where VINS-Mono has its square root
+  kScalesInformation,  ///< root = F_c/1.5 * sqrt(w): w multiplies the information
+  kAsPrinted,          ///< root = sqrt(F_c/1.5 * w): V26 is the information, V27 to the letter
+};
+
+enum class ThresholdReading {
+  kLinear,  ///< k = M_s N (V30 as printed)
+  kRoot,    ///< k = M_s sqrt(N)
+};
+
+enum class Kernel { kNone, kCauchy, kHuber };
+
+/// One sighting's part in the cost: residual times `sqrt_information`, then the kernel.
+struct Trust {
+  double sqrt_information = 0.0;  ///< one over the standard deviation of a bearing [1/rad]
+  Kernel kernel = Kernel::kNone;
+  double threshold = 1.0;  ///< of the kernel, in standard deviations
+};
+
+/// The model of the visual measurements (the paper's section 4).
+struct TrustOptions {
+  TrustMode mode = TrustMode::kGuarded;
+  InformationReading information = InformationReading::kScalesRoot;
+  ThresholdReading threshold = ThresholdReading::kLinear;
+  Kernel fixed_kernel = Kernel::kCauchy;  ///< of all modes but ac_me, which has its own Huber
+  double focal_length = 460.0;            ///< F_c [px]
+  double pixel_noise = 1.5;               ///< V27 [px]
+  double scale = 0.02;                    ///< s of V26
+  double geometry_scale = 0.2;            ///< s of V26 without N; the paper gives none
+  double huber_scale = 0.02;              ///< M_s of V30 [standard deviations]
+};
+
+/// g (V22-V25): how badly the directions to the features fix a position, as PDOP does. `directions`: unit
+/// vectors from the camera. Nothing sensible, and zero, with fewer than three or all in one plane.
+double geometry_factor(const std::vector<Eigen::Vector3d>& directions);
+
+/// The paper's weight for a feature tracked `times_tracked` times in a frame with geometry factor `g`.
+Trust trust(const TrustOptions& options, int times_tracked, double g);
+
+}  // namespace cosight::vins

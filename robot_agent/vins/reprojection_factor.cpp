@@ -1,0 +1,87 @@
+#include "robot_agent/vins/reprojection_factor.hpp"
+
+#include <cmath>
+
+#include "shared/geometry/rotation.hpp"
+
+namespace cosight::vins {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using Matrix23 = Eigen::Matrix<double, 2, 3>;
+using PoseJacobian = Eigen::Matrix<double, 2, 7, Eigen::RowMajor>;
+
+/// d (v / |v|) / d v.
+Matrix3d normalisation(const Vector3d& v) {
+  const double norm = v.norm();
+  const Vector3d u = v / norm;
+  return (Matrix3d::Identity() - u * u.transpose()) / norm;
+}
+
+/// d bearing(offset) / d offset.
+Vector3d bearing_rate(const Sighting& s, double offset) {
+  const Vector3d v = (s.point - offset * s.velocity).homogeneous();
+  return normalisation(v) * Vector3d(-s.velocity.x(), -s.velocity.y(), 0.0);
+}
+
+void fill_pose(double* jacobian, const Matrix23& d_p, const Matrix23& d_theta) {
+  Eigen::Map<PoseJacobian> J(jacobian);
+  J.leftCols<3>() = d_p;
+  J.middleCols<3>(3) = d_theta;
+  J.col(6).setZero();
+}
+
+}  // namespace
+
+Eigen::Matrix<double, 2, 3> tangent_basis(const Vector3d& f) {
+  const Vector3d axis = std::abs(f.z()) < 0.9 ? Vector3d::UnitZ() : Vector3d::UnitX();
+  const Vector3d b_1 = (axis - f * f.dot(axis)).normalized();
+  Eigen::Matrix<double, 2, 3> basis;
+  basis << b_1.transpose(), f.cross(b_1).transpose();
+  return basis;
+}
+
+ReprojectionFactor::ReprojectionFactor(const Sighting& first, const Sighting& now, double sqrt_information)
+    : first_(first), now_(now), weighted_tangent_(sqrt_information * tangent_basis(now.bearing(0.0))) {}
+
+bool ReprojectionFactor::Evaluate(double const* const* parameters, double* residuals,
+                                  double** jacobians) const {
+  const Pose T_WBi = to_pose(parameters[0]);
+  const Pose T_WBj = to_pose(parameters[1]);
+  const Pose T_BS = to_pose(parameters[2]);
+  const double lambda = *parameters[3];
+  const double offset = *parameters[4];
+
+  const Matrix3d R_i = T_WBi.q.toRotationMatrix();
+  const Matrix3d R_j = T_WBj.q.toRotationMatrix();
+  const Matrix3d R_BS = T_BS.q.toRotationMatrix();
+  const Vector3d f_i = first_.bearing(offset);
+  const Vector3d h_Bi = R_BS * f_i + lambda * T_BS.p;
+  const Vector3d h_Bj = R_j.transpose() * (R_i * h_Bi + lambda * (T_WBi.p - T_WBj.p));
+  const Vector3d h_Sj = R_BS.transpose() * (h_Bj - lambda * T_BS.p);
+  Eigen::Map<Eigen::Vector2d>(residuals).noalias() =
+      weighted_tangent_ * (h_Sj.normalized() - now_.bearing(offset));
+  if (jacobians == nullptr) return true;
+
+  const Matrix23 d_h = weighted_tangent_ * normalisation(h_Sj);  // d r / d h_Sj
+  const Matrix23 d_Bj = d_h * R_BS.transpose();                  // d r / d h_Bj
+  const Matrix23 d_W = d_Bj * R_j.transpose();
+  const Matrix23 d_Bi = d_W * R_i;
+  if (jacobians[0] != nullptr) fill_pose(jacobians[0], lambda * d_W, -d_Bi * skew(h_Bi));
+  if (jacobians[1] != nullptr) fill_pose(jacobians[1], -lambda * d_W, d_Bj * skew(h_Bj));
+  if (jacobians[2] != nullptr) {
+    fill_pose(jacobians[2], lambda * (d_Bi - d_Bj), d_h * skew(h_Sj) - d_Bi * R_BS * skew(f_i));
+  }
+  if (jacobians[3] != nullptr) {
+    Eigen::Map<Eigen::Vector2d>(jacobians[3]).noalias() =
+        d_Bi * T_BS.p + d_W * (T_WBi.p - T_WBj.p) - d_Bj * T_BS.p;
+  }
+  if (jacobians[4] != nullptr) {
+    Eigen::Map<Eigen::Vector2d>(jacobians[4]).noalias() =
+        d_Bi * R_BS * bearing_rate(first_, offset) - weighted_tangent_ * bearing_rate(now_, offset);
+  }
+  return true;
+}
+
+}  // namespace cosight::vins

@@ -1,0 +1,145 @@
+#include "robot_agent/vins/sliding_window.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "robot_agent/vins/marginalisation.hpp"
+#include "robot_agent/vins/parameter_blocks.hpp"
+#include "robot_agent/vins/triangulation.hpp"
+
+namespace cosight::vins {
+namespace {
+
+Eigen::VectorXd ambient(const auto& block) {
+  return Eigen::Map<const Eigen::VectorXd>(block.data(), static_cast<Eigen::Index>(block.size()));
+}
+
+bool is_tracked(const Landmark& landmark, FrameId newest) {
+  return !landmark.observations.empty() && landmark.observations.back().frame == newest;
+}
+
+/// The landmark gets its next observation's frame as host; its depth moves along.
+void lose_host(Landmark& landmark, const Window& window) {
+  const Observation old_host = landmark.observations.front();
+  landmark.observations.erase(landmark.observations.begin());
+  if (!landmark.has_depth || landmark.observations.empty()) return;
+  const Pose T_WS_old = window.T_WS(window.slot(old_host.frame));
+  const Pose T_WS_new = window.T_WS(window.slot(landmark.observations.front().frame));
+  // Times lambda, as in the reprojection factor.
+  const Pose T = T_WS_new.inverse() * T_WS_old;
+  const Eigen::Vector3d h = T.q * old_host.sighting.bearing(window.time_offset) + landmark.lambda * T.p;
+  const bool in_front = h.dot(landmark.observations.front().sighting.bearing(window.time_offset)) > 0.0;
+  landmark.has_depth = in_front;
+  landmark.lambda /= h.norm();
+}
+
+void erase_unseen(Window& window) {
+  std::erase_if(window.landmarks, [](const auto& entry) { return entry.second.observations.empty(); });
+}
+
+void slide_oldest(Window& window, const GraphOptions& options) {
+  window.prior = marginalise_oldest(window, options);
+  const FrameId oldest = window.frames.front().id;
+  for (auto& [id, landmark] : window.landmarks) {
+    if (landmark.observations.front().frame == oldest) lose_host(landmark, window);
+  }
+  window.frames.pop_front();
+  window.frames.front().imu.reset();
+  erase_unseen(window);
+}
+
+void slide_second_newest(Window& window, const GraphOptions& options) {
+  const std::size_t slot = window.frames.size() - 2;
+  const FrameId gone = window.frames[slot].id;
+  window.prior = marginalise_frame(window, options, gone);
+  for (auto& [id, landmark] : window.landmarks) {
+    if (landmark.observations.front().frame == gone) {
+      lose_host(landmark, window);
+    } else {
+      std::erase_if(landmark.observations, [gone](const Observation& seen) { return seen.frame == gone; });
+    }
+  }
+  Preintegration joined = std::move(*window.frames[slot].imu);
+  joined.append(*window.frames[slot + 1].imu);
+  window.frames[slot + 1].imu = std::move(joined);
+  window.frames.erase(window.frames.begin() + static_cast<std::ptrdiff_t>(slot));
+  erase_unseen(window);
+}
+
+}  // namespace
+
+Prior start_prior(const WindowFrame& first, const StartUncertainty& uncertainty) {
+  Prior prior;
+  prior.blocks.push_back({{StateKind::kPose, first.id}, ambient(pose_block(first.state.T_WB))});
+  prior.blocks.push_back({{StateKind::kMotion, first.id}, ambient(motion_block(first.state))});
+  prior.residual = Eigen::VectorXd::Zero(kPoseDim + kMotionDim);
+  prior.J = Eigen::MatrixXd::Zero(kPoseDim + kMotionDim, kPoseDim + kMotionDim);
+  prior.J.diagonal().segment<3>(0).setConstant(1.0 / uncertainty.position);
+  // Tilt and yaw are turns about the axes of W; the pose's tangent is in B: theta_W = R_WB theta_B.
+  const Eigen::Vector3d tilt_and_yaw(1.0 / uncertainty.tilt, 1.0 / uncertainty.tilt, 1.0 / uncertainty.yaw);
+  prior.J.block<3, 3>(3, 3) = tilt_and_yaw.asDiagonal() * first.state.T_WB.q.toRotationMatrix();
+  prior.J.diagonal().segment<3>(6).setConstant(1.0 / uncertainty.velocity);
+  prior.J.diagonal().segment<3>(9).setConstant(1.0 / uncertainty.accelerometer_bias);
+  prior.J.diagonal().segment<3>(12).setConstant(1.0 / uncertainty.gyroscope_bias);
+  return prior;
+}
+
+void append_frame(Window& window, const FeatureFrame& frame, Preintegration imu, double gravity) {
+  const WindowFrame& before = window.frames.back();
+  WindowFrame next;
+  next.id = before.id + 1;
+  next.stamp = frame.stamp;
+  next.state = imu.propagate(before.state, gravity);
+  next.imu = std::move(imu);
+  window.frames.push_back(std::move(next));
+  window.add_observations(frame);
+}
+
+void update_geometry_factors(Window& window) {
+  std::vector<std::vector<Eigen::Vector3d>> directions(window.frames.size());
+  for (const auto& [id, landmark] : window.landmarks) {
+    if (!landmark.has_depth) continue;
+    for (const Observation& seen : landmark.observations) {
+      directions[window.slot(seen.frame)].push_back(seen.sighting.bearing(window.time_offset));
+    }
+  }
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    window.frames[i].geometry_factor = geometry_factor(directions[i]);
+  }
+}
+
+int drop_failed_landmarks(Window& window) {
+  const FrameId newest = window.frames.back().id;
+  int dropped = 0;
+  for (auto& [id, landmark] : window.landmarks) {
+    if (!landmark.has_depth || landmark.lambda > 0.0) continue;
+    ++dropped;
+    const bool tracked = is_tracked(landmark, newest);
+    landmark.observations.erase(landmark.observations.begin(),
+                                landmark.observations.end() - (tracked ? 1 : 0));
+    landmark.has_depth = false;
+  }
+  erase_unseen(window);
+  return dropped;
+}
+
+void slide(Window& window, bool second_newest_is_keyframe, const WindowOptions& options) {
+  if (second_newest_is_keyframe) {
+    slide_oldest(window, options.solver.graph);
+  } else {
+    slide_second_newest(window, options.solver.graph);
+  }
+}
+
+void repropagate_where_needed(Window& window, const WindowOptions& options) {
+  for (std::size_t to = 1; to < window.frames.size(); ++to) {
+    Preintegration& imu = *window.frames[to].imu;
+    const ImuBias& now = window.frames[to - 1].state.bias;
+    const bool far = (now.gyroscope - imu.bias().gyroscope).norm() > options.max_gyroscope_change ||
+                     (now.accelerometer - imu.bias().accelerometer).norm() > options.max_accelerometer_change;
+    if (far) imu.repropagate(now);
+  }
+}
+
+}  // namespace cosight::vins

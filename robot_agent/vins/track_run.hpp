@@ -1,0 +1,46 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "robot_agent/vins/track_files.hpp"
+#include "robot_agent/vins/window_odometry.hpp"
+
+namespace cosight::vins {
+
+struct TrackRunOptions {
+  WindowOptions window;
+  ImuNoise noise;
+  /// The first state is the true one; its biases are not known.
+  StartUncertainty start{.position = 1e-3, .yaw = 1e-3, .tilt = 1e-2, .velocity = 0.1};
+};
+
+/// What the paper's Tables 2 and 3 say of one run.
+struct TrackMetrics {
+  double rpe_mean = 0.0;         ///< over 1 s, poses thinned to 1 Hz, as evo with a delta of one frame [m]
+  double rpe_std = 0.0;          ///< [m]
+  double rpe_max = 0.0;          ///< [m]
+  double rpe_frame_mean = 0.0;   ///< between neighbouring frames [m]
+  double drift_percent = 0.0;    ///< V32
+  double outlier_percent = 0.0;  ///< features tracked fewer than 10 times, of all features
+};
+
+/// A run over a recorded sequence: one report a frame from the second on.
+struct TrackRun {
+  std::vector<WindowReport> reports;
+  TrackMetrics metrics;
+  double solve_ms_median = 0.0;
+  double solve_ms_p99 = 0.0;
+  double marginalise_ms_median = 0.0;
+};
+
+/// Starts from the true first state and goes through the whole sequence.
+TrackRun run_tracks(const TrackSequence& sequence, const TrackRunOptions& options);
+
+/// Position part of the relative pose error (evo) between every `step`-th frame [m].
+std::vector<double> relative_errors(const std::vector<TrackSequence::TruePose>& truth,
+                                    const std::vector<Pose>& estimate, std::size_t step);
+
+void write_tum(const TrackRun& run, const std::filesystem::path& file);
+
+}  // namespace cosight::vins

@@ -1,0 +1,42 @@
+#include "robot_agent/vins/triangulation.hpp"
+
+#include <cmath>
+
+#include "shared/geometry/rotation.hpp"
+
+namespace cosight::vins {
+
+std::optional<double> triangulate(const Window& window, const Landmark& landmark) {
+  if (landmark.observations.size() < 2) return std::nullopt;
+  const Observation& host = landmark.observations.front();
+  const Pose T_WSi = window.T_WS(window.slot(host.frame));
+  const Eigen::Vector3d f_i = host.sighting.bearing(window.time_offset);
+  // Times lambda: f_j x ( R_ji f_i + lambda t_ji ) = 0, linear in lambda; no trouble at infinity.
+  double numerator = 0.0;
+  double denominator = 0.0;
+  for (std::size_t k = 1; k < landmark.observations.size(); ++k) {
+    const Observation& seen = landmark.observations[k];
+    const Pose T_ji = window.T_WS(window.slot(seen.frame)).inverse() * T_WSi;
+    const Eigen::Vector3d f_j = seen.sighting.bearing(window.time_offset);
+    const Eigen::Vector3d a = f_j.cross(T_ji.p);
+    const Eigen::Vector3d b = f_j.cross(T_ji.q * f_i);
+    numerator -= a.dot(b);
+    denominator += a.squaredNorm();
+  }
+  constexpr double kMinBaselineSquared = 1e-6;  // 1 mm across the ray
+  if (denominator < kMinBaselineSquared) return std::nullopt;
+  const double lambda = numerator / denominator;
+  constexpr double kMinDistance = 0.1;  // [m]
+  if (lambda <= 0.0 || lambda > 1.0 / kMinDistance) return std::nullopt;
+  return lambda;
+}
+
+void triangulate_all(Window& window, std::size_t min_observations, double default_distance) {
+  for (auto& [id, landmark] : window.landmarks) {
+    if (landmark.has_depth || landmark.observations.size() < min_observations) continue;
+    landmark.lambda = triangulate(window, landmark).value_or(1.0 / default_distance);
+    landmark.has_depth = true;
+  }
+}
+
+}  // namespace cosight::vins

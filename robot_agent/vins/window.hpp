@@ -1,0 +1,72 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "robot_agent/vins/nav_state.hpp"
+#include "robot_agent/vins/preintegration.hpp"
+#include "robot_agent/vins/prior.hpp"
+#include "robot_agent/vins/reprojection_factor.hpp"
+
+namespace cosight::vins {
+
+using FeatureId = std::uint64_t;
+
+/// A feature that the front end followed into a frame.
+struct TrackedFeature {
+  FeatureId id = 0;
+  Sighting sighting;
+};
+
+/// One frame as the window gets it: features in the undistorted image plane.
+struct FeatureFrame {
+  Stamp stamp = 0;
+  std::vector<TrackedFeature> features;
+};
+
+struct Observation {
+  FrameId frame = 0;
+  Sighting sighting;
+  int times_tracked = 1;  ///< N when this frame saw it, itself included
+};
+
+/// A point seen from several frames of the window; its state is the inverse distance along its first bearing.
+struct Landmark {
+  std::vector<Observation> observations;  ///< in the order of the frames; the first is the host
+  double lambda = 0.0;                    ///< [1/m]
+  bool has_depth = false;
+  int times_tracked = 0;  ///< N: frames that ever saw it, also those that left the window
+};
+
+struct WindowFrame {
+  FrameId id = 0;
+  Stamp stamp = 0;
+  NavState state;
+  std::optional<Preintegration> imu;  ///< from the frame before; nothing in the first
+  double geometry_factor = 0.0;       ///< g (V25); zero: not known
+};
+
+/// The sliding window (V1-V3): what is estimated, what was measured, and what is left of the past.
+struct Window {
+  std::deque<WindowFrame> frames;
+  std::map<FeatureId, Landmark> landmarks;
+  Pose T_BS;                 ///< camera in the body
+  double time_offset = 0.0;  ///< image stamp + time_offset is the IMU's clock [s]
+  Prior prior;
+
+  std::size_t slot(FrameId id) const;  ///< position in `frames` of a frame that is there
+  Pose T_WS(std::size_t slot) const { return frames[slot].state.T_WB * T_BS; }
+
+  /// Adds the observations of the newest frame, which must already be in `frames`.
+  void add_observations(const FeatureFrame& frame);
+
+  /// Seen often enough, and early enough, to be worth a place in the solution.
+  bool is_used(const Landmark& landmark, std::size_t min_observations) const;
+};
+
+}  // namespace cosight::vins

@@ -1,0 +1,68 @@
+#include "robot_agent/vins/window_odometry.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "robot_agent/vins/triangulation.hpp"
+
+namespace cosight::vins {
+namespace {
+
+/// Wall time since it was made [ms]; for the report only.
+class Stopwatch {
+ public:
+  double ms() const {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+int count_tracked(const Window& window, const FeatureFrame& frame) {
+  return static_cast<int>(
+      std::count_if(frame.features.begin(), frame.features.end(),
+                    [&](const auto& feature) { return window.landmarks.at(feature.id).times_tracked > 1; }));
+}
+
+}  // namespace
+
+void WindowOdometry::start(const FeatureFrame& frame, const NavState& state,
+                           const StartUncertainty& uncertainty) {
+  const Pose T_BS = window_.T_BS;
+  window_ = Window();
+  window_.T_BS = T_BS;
+  WindowFrame first;
+  first.stamp = frame.stamp;
+  first.state = state;
+  window_.prior = start_prior(first, uncertainty);
+  window_.frames.push_back(std::move(first));
+  window_.add_observations(frame);
+}
+
+WindowReport WindowOdometry::process(const FeatureFrame& frame, std::vector<ImuSample> imu) {
+  const GraphOptions& graph = options_.solver.graph;
+  WindowReport report;
+  report.stamp = frame.stamp;
+  append_frame(window_, frame, {std::move(imu), window_.frames.back().state.bias, noise_}, graph.gravity);
+  report.keyframe = second_newest_is_keyframe(window_, options_.keyframe);
+  report.tracked = count_tracked(window_, frame);
+
+  triangulate_all(window_, graph.min_observations, options_.default_distance);
+  update_geometry_factors(window_);
+  const Stopwatch solve_time;
+  report.solve = solve(window_, options_.solver);
+  report.solve_ms = solve_time.ms();
+  report.state = window_.frames.back().state;
+  report.geometry_factor = window_.frames.back().geometry_factor;
+
+  report.landmarks_dropped = drop_failed_landmarks(window_);
+  const Stopwatch marginalise_time;
+  if (window_.frames.size() >= options_.size) slide(window_, report.keyframe, options_);
+  report.marginalise_ms = marginalise_time.ms();
+  repropagate_where_needed(window_, options_);
+  return report;
+}
+
+}  // namespace cosight::vins

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <optional>
+
+#include "robot_agent/vins/sliding_window.hpp"
+
+namespace cosight::vins {
+
+/// What one frame did to the window.
+struct WindowReport {
+  Stamp stamp = 0;
+  NavState state;  ///< of the newest frame
+  SolveReport solve;
+  bool keyframe = false;  ///< the second newest frame was kept
+  double geometry_factor = 0.0;
+  int tracked = 0;            ///< features of this frame that were seen before
+  int landmarks_dropped = 0;  ///< came to lie behind their host
+  double solve_ms = 0.0;
+  double marginalise_ms = 0.0;
+};
+
+/// Visual-inertial odometry from a known first state on: V20 / V31 minimised over a sliding window.
+class WindowOdometry {
+ public:
+  WindowOdometry(const WindowOptions& options, const ImuNoise& noise, const Pose& T_BS)
+      : options_(options), noise_(noise) {
+    window_.T_BS = T_BS;
+  }
+
+  /// Starts anew with one frame whose state is known that well.
+  void start(const FeatureFrame& frame, const NavState& state, const StartUncertainty& uncertainty);
+
+  /// Starts anew with the frames, landmarks and states of an initialisation.
+  void start(Window window) { window_ = std::move(window); }
+
+  /// The next frame, and all IMU samples from the newest frame's instant to this one's.
+  WindowReport process(const FeatureFrame& frame, std::vector<ImuSample> imu);
+
+  const Window& window() const { return window_; }
+
+ private:
+  WindowOptions options_;
+  ImuNoise noise_;
+  Window window_;
+};
+
+}  // namespace cosight::vins
