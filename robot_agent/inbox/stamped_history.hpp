@@ -1,0 +1,65 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <deque>
+
+#include "shared/dataset/stamp.hpp"
+
+namespace cosight::inbox {
+
+/// The newest samples of a stream in the order of their stamps, whatever order they arrive in. `T` has a
+/// `stamp`. Bounded: the oldest goes.
+template <typename T>
+class StampedHistory {
+ public:
+  explicit StampedHistory(std::size_t capacity) : capacity_(capacity) {}
+
+  /// A sample of the same stamp is replaced.
+  void insert(const T& sample) {
+    last_arrived_ = sample.stamp;
+    const auto place = first_not_before(sample.stamp);
+    if (place != samples_.end() && place->stamp == sample.stamp) {
+      samples_[static_cast<std::size_t>(place - samples_.begin())] = sample;
+      return;
+    }
+    samples_.insert(place, sample);
+    if (samples_.size() > capacity_) samples_.pop_front();
+  }
+
+  /// The last sample at or before, and the first at or after a stamp; null where there is none.
+  struct Neighbours {
+    const T* before = nullptr;
+    const T* after = nullptr;
+  };
+  Neighbours neighbours(Stamp stamp) const {
+    Neighbours result;
+    const auto after = first_not_before(stamp);
+    if (after != samples_.end()) result.after = &*after;
+    if (result.after != nullptr && result.after->stamp == stamp) {
+      result.before = result.after;
+    } else if (after != samples_.begin()) {
+      result.before = &*std::prev(after);
+    }
+    return result;
+  }
+
+  /// The stream has come as far as `stamp`: what belongs there has arrived, or was lost. Judged by the sample
+  /// that arrived last, so that one absurd stamp does not stand for the stream.
+  bool reaches(Stamp stamp) const { return !samples_.empty() && last_arrived_ >= stamp; }
+
+  std::size_t size() const { return samples_.size(); }
+  void clear() { samples_.clear(); }
+
+ private:
+  typename std::deque<T>::const_iterator first_not_before(Stamp stamp) const {
+    return std::lower_bound(samples_.begin(), samples_.end(), stamp,
+                            [](const T& sample, Stamp s) { return sample.stamp < s; });
+  }
+
+  std::size_t capacity_;
+  std::deque<T> samples_;
+  Stamp last_arrived_ = 0;
+};
+
+}  // namespace cosight::inbox
