@@ -1,0 +1,305 @@
+// The filter, which touches only what it must, against a textbook filter that knows nothing of structure.
+#include <gtest/gtest.h>
+
+#include "robot_agent/ekf/filter.hpp"
+#include "tests/robot_agent/ekf/dense_filter.hpp"
+#include "tests/robot_agent/ekf/random_scene.hpp"
+
+namespace cosight::ekf {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+MatrixXd whole(const GaussianState& state) {
+  return MatrixXd(state.P_lower().selfadjointView<Eigen::Lower>());
+}
+
+/// Both filters side by side, with the same camera and landmarks.
+class SideBySide : public testing::TestWithParam<unsigned> {
+ protected:
+  static FilterOptions options() {
+    FilterOptions o;
+    o.max_landmarks = 12;
+    o.max_clones = 3;
+    o.gate_probability = 1.0;
+    o.motion = {0.5, 0.8};
+    return o;
+  }
+
+  void SetUp() override {
+    CameraState x = scene.camera_state();
+    x.v_W *= 0.2;
+    x.omega_S *= 0.2;
+    MatrixXd P = scene.covariance(CameraState::kDim, 0.02);
+    filter.reset(x, P);
+    dense.x = x.vector();
+    dense.P = P;
+    dense.normalise();
+    // The reset takes the covariance as it is; carry it onto the unit quaternion as the dense one is.
+    filter.reset(x, dense.P);
+    rig.camera_S = camera;
+    rig.camera_F = scene.camera();
+    rig.sigma_pixel_F = 1.5;
+    expect_same();
+  }
+
+  void expect_same(double tolerance = 2e-5) {
+    ASSERT_EQ(filter.state().size(), dense.x.size());
+    EXPECT_THAT(filter.state().x(), IsNearMatrix(dense.x, tolerance));
+    const VectorXd sigma = dense.P.diagonal().cwiseMax(1e-18).cwiseSqrt();
+    const MatrixXd scaled = sigma.cwiseInverse().asDiagonal() * (whole(filter.state()) - dense.P) *
+                            sigma.cwiseInverse().asDiagonal();
+    EXPECT_LT(scaled.cwiseAbs().maxCoeff(), tolerance);
+  }
+
+  CameraState camera_of(const VectorXd& x) const { return CameraState::from_vector(x.head<13>()); }
+
+  /// A match in a free camera that looks at the same point, with its pose.
+  StereoMatch new_match() {
+    const Vector3d p_S = scene.point_in_view(2.0, 6.0);
+    rig.T_SF.T.p = Vector3d(0.8, 0.1, 0.05);
+    rig.T_SF.T.q = quaternion_exp({0.05, -0.2, 0.03});
+    rig.T_SF = scene.uncertain_pose(rig.T_SF.T, 0.02, 0.01);
+    return {*rig.camera_S.project(p_S) + Vector2d(0.2, -0.3),
+            *rig.camera_F.project(rig.T_SF.T.inverse() * p_S) + Vector2d(-0.2, 0.4)};
+  }
+
+  /// d (4 pixels, dp, dtheta) -> y, written with the pose error in the axes of S.
+  VectorXd pseudo_stereo(const VectorXd& x, const VectorXd& noise, const StereoMatch& match) const {
+    const Pose T_SF{quaternion_exp(noise.tail<3>()) * rig.T_SF.T.q, rig.T_SF.T.p + noise.segment<3>(4)};
+    const auto point = triangulate({match.pixel_S + noise.head<2>(), match.pixel_F + noise.segment<2>(2)},
+                                   rig.camera_S, rig.camera_F, T_SF);
+    return landmark_at(camera_of(x), point->ray_S, point->rho);
+  }
+
+  static VectorXd landmark_at(const CameraState& x, const Vector3d& ray_S, double rho) {
+    const Vector3d m = (x.q_WS.toRotationMatrix() * ray_S).normalized();
+    VectorXd y(6);
+    y << x.r_WS, std::atan2(m.y(), m.x()), std::asin(m.z()), rho;
+    return y;
+  }
+
+  MatrixXd stereo_noise() const {
+    MatrixXd N = MatrixXd::Zero(10, 10);
+    N.diagonal().head<4>() << 1.0, 1.0, 2.25, 2.25;
+    N.bottomRightCorner<6, 6>() = rig.T_SF.covariance;
+    return N;
+  }
+
+  void add_both_ways(const StereoMatch& match) {
+    const auto id = filter.add_pseudo_stereo_landmark(match, rig);
+    ASSERT_TRUE(id);
+    ids.push_back(*id);
+    dense.augment([&](const VectorXd& x, const VectorXd& n) { return pseudo_stereo(x, n, match); },
+                  stereo_noise(), 1e-5);
+  }
+
+  VectorXd pixel_of(const VectorXd& x, int offset) const {
+    const CameraState c = camera_of(x);
+    const Vector3d m = ray_of_angles({x(offset + 3), x(offset + 4)});
+    const Vector3d h_W = x(offset + 5) * (x.segment<3>(offset) - c.r_WS) + m;
+    return *camera.project(c.q_WS.toRotationMatrix().transpose() * h_W);
+  }
+
+  VectorXd point_of(const VectorXd& x, int offset) const {
+    const CameraState c = camera_of(x);
+    const Vector3d m = ray_of_angles({x(offset + 3), x(offset + 4)});
+    return c.q_WS.toRotationMatrix().transpose() * (x.segment<3>(offset) + m / x(offset + 5) - c.r_WS);
+  }
+
+  void predict_both(double dt) {
+    filter.predict(dt);
+    const auto move = [dt](const VectorXd& x, const VectorXd& impulse) {
+      VectorXd next = x;
+      const Vector3d v = x.segment<3>(7) + impulse.head<3>();
+      const Vector3d omega = x.segment<3>(10) + impulse.tail<3>();
+      next.segment<3>(0) += v * dt;
+      const Eigen::Quaterniond q(x(3), x(4), x(5), x(6));
+      const double angle = omega.norm() * dt;
+      const Eigen::Quaterniond turn(Eigen::AngleAxisd(angle, omega.normalized()));
+      next.segment<4>(3) = wxyz(q * turn);
+      next.segment<3>(7) = v;
+      next.segment<3>(10) = omega;
+      return next;
+    };
+    VectorXd Q(6);
+    Q << VectorXd::Constant(3, std::pow(0.5 * dt, 2)), VectorXd::Constant(3, std::pow(0.8 * dt, 2));
+    const VectorXd x_0 = dense.x;
+    dense.predict([&](const VectorXd& x) { return move(x, VectorXd::Zero(6)); },
+                  [&](const VectorXd& i) { return move(x_0, i); }, Q.asDiagonal());
+  }
+
+  RandomScene scene{GetParam()};
+  CameraModel camera = scene.camera();
+  Filter filter{camera, options()};
+  DenseFilter dense;
+  StereoRig rig;
+  std::vector<LandmarkId> ids;
+};
+
+TEST_P(SideBySide, PredictionsAgreeWithLandmarksInTheState) {
+  for (int i = 0; i < 3; ++i)
+    add_both_ways(new_match());
+  expect_same();
+  for (const double dt : {0.033, 0.5, 0.1})
+    predict_both(dt);
+  expect_same();
+}
+
+TEST_P(SideBySide, UpdatesOfPixelsAndPointsAgree) {
+  for (int i = 0; i < 4; ++i)
+    add_both_ways(new_match());
+  predict_both(0.05);
+  std::vector<Measurement> measurements;
+  VectorXd z(10);
+  MatrixXd R = MatrixXd::Zero(10, 10);
+  // Pixels of landmarks 2 and 0, points of 3 and 1 which share an error.
+  const std::array<int, 4> order{2, 3, 0, 1};
+  Eigen::Matrix<double, 6, 6> B = Eigen::Matrix<double, 6, 6>::Zero();
+  int row = 0;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const LandmarkId id = ids[static_cast<std::size_t>(order[i])];
+    const int offset = filter.landmark_offset(id);
+    if (i % 2 == 0) {
+      const Vector2d pixel = pixel_of(dense.x, offset) + 0.7 * scene.normals(2);
+      measurements.push_back(Measurement::pixel(id, pixel, 0.8));
+      z.segment<2>(row) = pixel;
+      R.block<2, 2>(row, row) = 0.64 * MatrixXd::Identity(2, 2);
+      row += 2;
+      continue;
+    }
+    PointMeasurement point;
+    point.p_S = point_of(dense.x, offset) + 0.02 * scene.normals(3);
+    for (int k = 0; k < 18; ++k)
+      point.shared_factor.data()[k] = 0.02 * scene.normal();
+    point.R = scene.covariance(3, 0.02) + point.shared_factor * point.shared_factor.transpose();
+    measurements.push_back(Measurement::point(id, point));
+    z.segment<3>(row) = point.p_S;
+    R.block<3, 3>(row, row) = point.R;
+    B.middleRows<3>(i == 1 ? 0 : 3) = point.shared_factor;
+    row += 3;
+  }
+  R.block<3, 3>(7, 2) = B.bottomRows<3>() * B.topRows<3>().transpose();
+  R.block<3, 3>(2, 7) = R.block<3, 3>(7, 2).transpose();
+  const std::array<int, 4> offsets{filter.landmark_offset(ids[2]), filter.landmark_offset(ids[3]),
+                                   filter.landmark_offset(ids[0]), filter.landmark_offset(ids[1])};
+  const auto h = [&](const VectorXd& x) {
+    VectorXd v(10);
+    v << pixel_of(x, offsets[0]), point_of(x, offsets[1]), pixel_of(x, offsets[2]), point_of(x, offsets[3]);
+    return v;
+  };
+  const MatrixXd H = numeric_jacobian(h, dense.x);
+  const MatrixXd S = H * dense.P * H.transpose() + R;
+  const VectorXd g = z - h(dense.x);
+  const double nis = g.dot(S.inverse() * g);
+
+  const UpdateReport& report = filter.update(measurements);
+  EXPECT_EQ(report.fused, 4);
+  EXPECT_EQ(report.rows, 10);
+  EXPECT_NEAR(report.nis, nis, 1e-4 * nis);
+  EXPECT_THAT(report.measurements[1].innovation, IsNearMatrix(g.segment<3>(2), 1e-5));
+  EXPECT_NEAR(report.measurements[1].innovation_std.y(), std::sqrt(S(3, 3)), 1e-5);
+  dense.update(h, z, R);
+  expect_same(1e-4);
+}
+
+TEST_P(SideBySide, DelayedStartFromACloneAgrees) {
+  add_both_ways(new_match());
+  const auto clone = filter.clone_camera_pose();
+  ASSERT_TRUE(clone);
+  dense.augment([](const VectorXd& x, const VectorXd&) -> VectorXd { return x.head<7>(); },
+                MatrixXd::Zero(1, 1), 1.0);
+  const int clone_offset = filter.state().size() - 7;
+  const Vector3d p_W = camera_of(dense.x).T_WS() * scene.point_in_view(2.0, 4.0);
+  const Vector2d first_pixel = *camera.project(camera_of(dense.x).T_WS().inverse() * p_W);
+  predict_both(0.3);
+  const auto seen = camera.project(camera_of(dense.x).T_WS().inverse() * p_W);
+  if (!seen) GTEST_SKIP() << "turned away";
+  const Vector2d pixel_now = *seen + Vector2d(0.3, -0.2);
+  const auto id = filter.add_delayed_landmark(*clone, first_pixel, pixel_now);
+  if (!id) GTEST_SKIP() << "the rays part";
+  dense.augment(
+      [&](const VectorXd& x, const VectorXd& n) {
+        const CameraState c = camera_of(x);
+        const Vector3d h_1 = from_wxyz(x.segment<4>(clone_offset + 3)).toRotationMatrix() *
+                             *camera.unproject(first_pixel + n.head<2>());
+        const Vector3d h_2_S = *camera.unproject(pixel_now + n.tail<2>());
+        const Vector3d b = c.r_WS - x.segment<3>(clone_offset);
+        const Vector3d h_2 = c.q_WS.toRotationMatrix() * h_2_S;
+        const double beta = std::acos(h_1.dot(b) / (h_1.norm() * b.norm()));
+        const double gamma = std::acos(-h_2.dot(b) / (h_2.norm() * b.norm()));
+        const double rho = std::sin(beta + gamma) / (b.norm() * std::sin(beta));
+        return landmark_at(c, h_2_S.normalized(), rho);
+      },
+      MatrixXd::Identity(4, 4), 1e-4);
+  expect_same(1e-3);
+  filter.drop_clone(*clone);
+  EXPECT_EQ(filter.landmark_offset(*id), clone_offset);
+  EXPECT_FALSE(filter.clone(*clone));
+}
+
+TEST_P(SideBySide, RemovalKeepsEverythingElse) {
+  for (int i = 0; i < 4; ++i)
+    add_both_ways(new_match());
+  filter.remove_landmark(ids[1]);
+  const auto drop = [](const MatrixXd& m, bool columns) {
+    MatrixXd kept(m.rows() - 6, m.cols());
+    kept << m.topRows(19), m.bottomRows(m.rows() - 25);
+    if (!columns) return kept;
+    MatrixXd both(kept.rows(), kept.cols() - 6);
+    both << kept.leftCols(19), kept.rightCols(kept.cols() - 25);
+    return both;
+  };
+  dense.x = drop(dense.x, false);
+  dense.P = drop(dense.P, true);
+  expect_same();
+  EXPECT_FALSE(filter.contains(ids[1]));
+  EXPECT_EQ(filter.landmark_offset(ids[2]), 19);
+  EXPECT_EQ(filter.landmark_offset(ids[3]), 25);
+  EXPECT_EQ(filter.landmark_id(1), ids[2]);
+}
+
+TEST_P(SideBySide, ConversionToAPointAgrees) {
+  for (int i = 0; i < 3; ++i)
+    add_both_ways(new_match());
+  const auto before = filter.landmark(ids[1]);
+  const auto prediction = filter.predict_pixel(ids[1]);
+  ASSERT_TRUE(filter.convert_to_point(ids[1]));
+  const auto after = filter.landmark(ids[1]);
+  EXPECT_FALSE(after->is_inverse_depth);
+  EXPECT_THAT(after->p_W, IsNearMatrix(before->p_W, 1e-12));
+  EXPECT_THAT(after->p_W_covariance, IsNearMatrix(before->p_W_covariance, 1e-9));
+  EXPECT_THAT(filter.predict_pixel(ids[1])->S, IsNearMatrix(prediction->S, 1e-6));
+  EXPECT_EQ(filter.landmark_offset(ids[2]), 13 + 6 + 3);
+  EXPECT_EQ(filter.state().size(), 13 + 6 + 3 + 6);
+}
+
+TEST_P(SideBySide, PredictedPixelsAndPointsHaveTheInnovationCovarianceOfTheUpdate) {
+  for (int i = 0; i < 3; ++i)
+    add_both_ways(new_match());
+  for (const LandmarkId id : ids) {
+    const auto pixel = filter.predict_pixel(id);
+    const auto point = filter.predict_point(id);
+    ASSERT_TRUE(pixel && point);
+    EXPECT_NEAR(pixel->depth, point->p_S.z(), 1e-9);
+    PointMeasurement exact;
+    exact.p_S = point->p_S;
+    exact.R.setIdentity();
+    const std::array<Measurement, 2> both{Measurement::pixel(id, pixel->pixel, 1.0),
+                                          Measurement::point(id, exact)};
+    const JointInnovation& innovation = filter.innovation(both);
+    EXPECT_LT(innovation.g().norm(), 1e-9);
+    EXPECT_THAT(
+        MatrixXd(innovation.S_lower().topLeftCorner<2, 2>()).triangularView<Eigen::Lower>().toDenseMatrix(),
+        IsNearMatrix(MatrixXd(pixel->S).triangularView<Eigen::Lower>().toDenseMatrix(), 1e-9));
+    EXPECT_NEAR(innovation.S_lower()(4, 4), point->covariance(2, 2) + 1.0, 1e-9);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, SideBySide, testing::Range(1U, 11U));
+
+}  // namespace
+}  // namespace cosight::ekf
