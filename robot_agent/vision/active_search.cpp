@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "robot_agent/vision/align_patch.hpp"
+
 namespace cosight::vision {
 namespace {
 
@@ -42,7 +44,7 @@ PatchMatch judge_peaks(const std::vector<Peak>& peaks, const GrayImage& image, c
   if (peaks.empty()) return match;
   const Peak& best = peaks.front();
   match.best = {best.x, best.y};
-  match.pixel = scan.refine(image, patch, best);
+  match.pixel = match.best.cast<double>();
   match.score = best.score;
   const auto second =
       std::find_if(peaks.begin() + 1, peaks.end(), [&](const Peak& peak) { return is_distinct(peak, best); });
@@ -53,6 +55,8 @@ PatchMatch judge_peaks(const std::vector<Peak>& peaks, const GrayImage& image, c
   if (match.score < options.min_score) return match;
   const bool ambiguous = match.second_score > options.max_second_ratio * match.score;
   match.outcome = ambiguous ? SearchOutcome::kAmbiguous : SearchOutcome::kFound;
+  match.pixel = scan.refine(image, patch, best);
+  match.pixel = align_patch(image, patch, match.pixel).value_or(match.pixel);
   return match;
 }
 

@@ -37,34 +37,46 @@ class CellCounts {
   std::vector<int> counts_;
 };
 
-/// FAST's corners inside the bounding box of the region, in whole image coordinates.
-std::vector<Eigen::Vector2d> propose(const GrayImage& image, const CornerOptions& options,
-                                     const ConvexPolygon* roi) {
-  constexpr int kFastRadius = 3;
+/// Pixels of the region in which FAST may look; empty when there are none.
+cv::Rect searched_box(const GrayImage& image, const CornerOptions& options, const ConvexPolygon* roi) {
   const int border = std::max(options.border, 4);
   cv::Rect box(border, border, image.width - 2 * border, image.height - 2 * border);
-  if (roi != nullptr) {
-    if (roi->size() < 3) return {};
-    const Rectangle bounds = bounding_box(*roi);
-    const cv::Point low(static_cast<int>(std::floor(bounds.min.x())),
-                        static_cast<int>(std::floor(bounds.min.y())));
-    const cv::Point high(static_cast<int>(std::ceil(bounds.max.x())) + 1,
-                         static_cast<int>(std::ceil(bounds.max.y())) + 1);
-    box &= cv::Rect(low, high);
-  }
   if (box.width <= 0 || box.height <= 0) return {};
+  if (roi == nullptr) return box;
+  if (roi->size() < 3) return {};
+  const Rectangle bounds = bounding_box(*roi);
+  const cv::Point low(static_cast<int>(std::floor(bounds.min.x())),
+                      static_cast<int>(std::floor(bounds.min.y())));
+  const cv::Point high(static_cast<int>(std::ceil(bounds.max.x())) + 1,
+                       static_cast<int>(std::ceil(bounds.max.y())) + 1);
+  return box & cv::Rect(low, high);
+}
+
+/// The best corner of every 4x4 pixels that FAST proposes. FAST's own suppression of neighbours drops all of
+/// several equal ones, which clean drawings have.
+std::vector<Corner> propose(const GrayImage& image, const CornerOptions& options, const ConvexPolygon* roi) {
+  constexpr int kFastRadius = 3;
+  constexpr int kBlock = 4;
+  const cv::Rect box = searched_box(image, options, roi);
+  if (box.empty()) return {};
   const cv::Rect searched(box.x - kFastRadius, box.y - kFastRadius, box.width + 2 * kFastRadius,
                           box.height + 2 * kFastRadius);
   std::vector<cv::KeyPoint> keypoints;
-  cv::FAST(opencv_view(image)(searched), keypoints, options.fast_threshold, true);
-  std::vector<Eigen::Vector2d> pixels;
-  pixels.reserve(keypoints.size());
+  cv::FAST(opencv_view(image)(searched), keypoints, options.fast_threshold, false);
+  const int columns = searched.width / kBlock + 1;
+  std::vector<Corner> best(static_cast<std::size_t>(columns * (searched.height / kBlock + 1)));
   for (const cv::KeyPoint& keypoint : keypoints) {
-    const Eigen::Vector2d pixel =
-        Eigen::Vector2d(searched.x, searched.y) + Eigen::Vector2d(keypoint.pt.x, keypoint.pt.y);
-    if (roi == nullptr || contains(*roi, pixel)) pixels.push_back(pixel);
+    const int x = static_cast<int>(keypoint.pt.x);
+    const int y = static_cast<int>(keypoint.pt.y);
+    const Eigen::Vector2d pixel(searched.x + x, searched.y + y);
+    const double score = shi_tomasi_score(image, searched.x + x, searched.y + y);
+    Corner& corner = best[static_cast<std::size_t>(y / kBlock * columns + x / kBlock)];
+    if (score > corner.score) corner = {pixel, score};
   }
-  return pixels;
+  std::erase_if(best, [&](const Corner& corner) {
+    return !(corner.score >= options.min_score) || (roi != nullptr && !contains(*roi, corner.pixel));
+  });
+  return best;
 }
 
 bool is_clear(const Eigen::Vector2d& pixel, const std::vector<Eigen::Vector2d>& taken, double min_distance) {
@@ -105,10 +117,9 @@ std::vector<Corner> CornerDetector::detect(const GrayImage& image,
   for (const Eigen::Vector2d& pixel : occupied)
     cells.count_one_more(cells.cell_of(pixel));
   std::vector<RankedCorner> ranked;
-  for (const Eigen::Vector2d& pixel : propose(image, options_, roi)) {
-    if (!is_clear(pixel, occupied, options_.min_distance)) continue;
-    const double score = shi_tomasi_score(image, static_cast<int>(pixel.x()), static_cast<int>(pixel.y()));
-    if (score >= options_.min_score) ranked.push_back({{pixel, score}, cells.cell_of(pixel), 0});
+  for (const Corner& corner : propose(image, options_, roi)) {
+    if (!is_clear(corner.pixel, occupied, options_.min_distance)) continue;
+    ranked.push_back({corner, cells.cell_of(corner.pixel), 0});
   }
   std::stable_sort(ranked.begin(), ranked.end(), [](const RankedCorner& a, const RankedCorner& b) {
     return a.corner.score > b.corner.score;

@@ -10,7 +10,7 @@ namespace cosight::vision {
 
 struct CornerOptions {
   int fast_threshold = 12;     ///< gray levels; lower for dim or blurred images
-  double min_score = 20.0;     ///< smaller eigenvalue of the mean structure tensor [(gray levels / px)^2]
+  double min_score = 20.0;     ///< [(gray levels / px)^2] least eigenvalue; 0 is refused, too
   double min_distance = 12.0;  ///< [px] between corners, and to the occupied pixels
   int border = 10;             ///< [px] kept free along the image's edge
   int cell = 80;               ///< [px] the image is filled cell by cell, emptiest first

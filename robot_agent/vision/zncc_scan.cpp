@@ -9,6 +9,7 @@ namespace cosight::vision {
 namespace {
 
 constexpr float kOutside = -2.0F;
+constexpr double kMaxOffset = 0.75;  // [px] farther from its pixel a peak would be another pixel's
 
 std::size_t index(int i) {
   return static_cast<std::size_t>(i);
@@ -225,21 +226,30 @@ double ZnccScan::score_at(const GrayImage& image, const Patch& patch, int x, int
   return (n * products - static_cast<double>(patch.sum) * sum) * patch.inverse_norm / std::sqrt(variation);
 }
 
+// Least squares of c + g.d + d.H.d / 2 to the nine scores around the peak; the top lies at -H^-1 g. The cross
+// term matters: along a slanted edge the peak is a slanted ridge.
 Eigen::Vector2d ZnccScan::refine(const GrayImage& image, const Patch& patch, const Peak& peak) {
   const int margin = patch.half() + 1;
-  Eigen::Vector2d top(peak.x, peak.y);
+  const Eigen::Vector2d whole(peak.x, peak.y);
   if (peak.x < margin || peak.y < margin || peak.x > image.width - 1 - margin ||
       peak.y > image.height - 1 - margin) {
-    return top;
+    return whole;
   }
-  const auto offset = [&](double before, double after) {
-    const double curvature = before - 2.0 * peak.score + after;
-    if (!(curvature < -1e-9)) return 0.0;
-    return std::clamp(0.5 * (before - after) / curvature, -0.5, 0.5);
-  };
-  top.x() += offset(score_at(image, patch, peak.x - 1, peak.y), score_at(image, patch, peak.x + 1, peak.y));
-  top.y() += offset(score_at(image, patch, peak.x, peak.y - 1), score_at(image, patch, peak.x, peak.y + 1));
-  return top;
+  Eigen::Matrix3d score;  // row v, column u
+  for (int v = 0; v < 3; ++v) {
+    for (int u = 0; u < 3; ++u)
+      score(v, u) = score_at(image, patch, peak.x + u - 1, peak.y + v - 1);
+  }
+  const Eigen::Vector2d gradient((score.col(2) - score.col(0)).sum() / 6.0,
+                                 (score.row(2) - score.row(0)).sum() / 6.0);
+  Eigen::Matrix2d curvature;
+  curvature(0, 0) = (score.col(0) - 2.0 * score.col(1) + score.col(2)).sum() / 3.0;
+  curvature(1, 1) = (score.row(0) - 2.0 * score.row(1) + score.row(2)).sum() / 3.0;
+  curvature(0, 1) = 0.25 * (score(0, 0) + score(2, 2) - score(0, 2) - score(2, 0));
+  curvature(1, 0) = curvature(0, 1);
+  if (!(curvature(0, 0) < 0.0) || !(curvature.determinant() > 1e-12)) return whole;
+  const Eigen::Vector2d offset = -(curvature.inverse() * gradient);
+  return whole + offset.cwiseMax(-kMaxOffset).cwiseMin(kMaxOffset);
 }
 
 }  // namespace cosight::vision

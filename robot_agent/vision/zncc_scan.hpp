@@ -48,8 +48,8 @@ class ZnccScan {
   /// The score at one position, which must be at least the patch's half side inside the image.
   double score_at(const GrayImage& image, const Patch& patch, int x, int y);
 
-  /// Adds to a peak the offset of the top of the parabolas through its four neighbours; each at most half a
-  /// pixel. Returns the peak itself where a neighbour does not lie in the image.
+  /// The top of the quadratic surface through the scores around a peak [px]; the peak itself where a
+  /// neighbour does not lie in the image.
   Eigen::Vector2d refine(const GrayImage& image, const Patch& patch, const Peak& peak);
 
  private:

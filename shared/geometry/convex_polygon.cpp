@@ -14,8 +14,14 @@ double cross(const Vector2& a, const Vector2& b) {
 }
 
 bool turns_left(const Vector2& a, const Vector2& b, const Vector2& c) {
-  // A millionth of a unit of area is rounding, not a corner.
-  return cross(b - a, c - b) > 1e-12 * (1.0 + (b - a).norm() * (c - b).norm());
+  return cross(b - a, c - b) > 0.0;
+}
+
+/// On a grid far finer than anything measured, so that points on one line that rounding moved apart sort
+/// along the line and not by their rounding errors.
+Vector2 on_grid(const Vector2& point) {
+  constexpr double kStep = 1e-9;
+  return {std::nearbyint(point.x() / kStep) * kStep, std::nearbyint(point.y() / kStep) * kStep};
 }
 
 /// One side of the convex chain over points sorted by x (Andrew's monotone chain), its last point left out.
@@ -50,6 +56,8 @@ ConvexPolygon clip_half_plane(const ConvexPolygon& polygon, const Vector2& norma
 }  // namespace
 
 ConvexPolygon convex_hull(std::vector<Eigen::Vector2d> points) {
+  for (Vector2& point : points)
+    point = on_grid(point);
   std::sort(points.begin(), points.end(), [](const Vector2& a, const Vector2& b) {
     return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
   });
