@@ -1,0 +1,25 @@
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <iostream>
+
+#include "tools/evaluate_command.hpp"
+#include "tools/prepare_command.hpp"
+#include "tools/summarise_command.hpp"
+
+int main(int argc, char** argv) {
+  CLI::App program{"Cosight's tools around a run: prepare data, evaluate, summarise"};
+  program.require_subcommand(1);
+  program.set_version_flag("--version", "0.1.0");
+  cosight::add_prepare_command(program);
+  cosight::add_evaluate_command(program);
+  cosight::add_summarise_command(program);
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return program.exit(error) == 0 ? 0 : 2;
+  } catch (const std::exception& error) {
+    std::cerr << "cosight: " << error.what() << '\n';
+    return 1;
+  }
+  return 0;
+}
