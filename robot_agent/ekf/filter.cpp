@@ -94,6 +94,10 @@ void Filter::reset(const UncertainPose& T_WS, double sigma_v, double sigma_omega
   reset(x, covariance);
 }
 
+void Filter::recentre_camera(const CameraState& x) {
+  state_.x().head<CameraState::kDim>() = x.vector();
+}
+
 void Filter::predict(double dt) {
   if (!(dt > 0.0) || !std::isfinite(dt)) return;
   const MotionStep step = predict_motion(camera(), dt, options_.motion);

@@ -23,6 +23,13 @@ namespace cosight::ekf {
 /// A camera pose kept in the state, fully correlated with everything else.
 using CloneId = std::uint64_t;
 
+/// In which coordinates a measured point is compared with its prediction. The information is the same to
+/// first order; what is left of the curvature is not.
+enum class PointForm {
+  kEuclidean,        ///< x, y, z in S, as in the paper (C5)
+  kInverseDistance,  ///< x/z, y/z, 1/|p|: nearly linear in what triangulation measures
+};
+
 struct FilterOptions {
   MotionNoise motion;
   int max_landmarks = 100;   ///< storage is allocated for so many, once
@@ -33,6 +40,7 @@ struct FilterOptions {
   /// Points of one frame share the error of T_SF. True: as the correlation that it is; false: independent, as
   /// in the paper.
   bool correlated_wearer_pose = true;
+  PointForm point_form = PointForm::kInverseDistance;
   int max_iterations = 1;           ///< Gauss-Newton steps of one update; 1 is the plain EKF
   double min_inverse_depth = 1e-3;  ///< [1/m] a landmark farther than this is not measured as a point
 };
@@ -92,6 +100,10 @@ class Filter {
 
   /// Constant velocity over `dt` [s] (C1-C4). Nothing happens for dt <= 0 or not finite.
   void predict(double dt);
+
+  /// Moves the camera's mean within its own uncertainty and leaves the covariance: another point to linearise
+  /// at, for a prior so wide that its mean says nothing.
+  void recentre_camera(const CameraState& x);
 
   // --- landmarks ------------------------------------------------------------------------------------------
   int landmark_count() const { return static_cast<int>(landmarks_.size()); }

@@ -48,6 +48,21 @@ bool linearise_with(const Model& model, const GaussianState& state, const Measur
   return out.innovation.allFinite();
 }
 
+/// A point's innovation in bearing and inverse distance instead of metres; each side by its own Jacobian.
+bool to_inverse_distance(const Measurement& measurement, LinearisedMeasurement& m) {
+  if (!(measurement.z.z() > 0.0)) return false;
+  Eigen::Matrix3d J_measured;
+  Eigen::Matrix3d J_predicted;
+  const Eigen::Vector3d predicted = measurement.z - m.innovation;
+  m.innovation = bearing_and_inverse_distance(measurement.z, &J_measured) -
+                 bearing_and_inverse_distance(predicted, &J_predicted);
+  m.H_camera = (J_predicted * m.H_camera).eval();
+  m.H_landmark.leftCols(m.dim) = (J_predicted * m.H_landmark.leftCols(m.dim)).eval();
+  m.R = J_measured * measurement.R * J_measured.transpose();
+  m.shared_factor = J_measured * measurement.shared_factor;
+  return m.innovation.allFinite();
+}
+
 }  // namespace
 
 std::optional<PixelPrediction> Filter::predict_pixel(LandmarkId id) const {
@@ -92,7 +107,9 @@ bool Filter::linearise(const Measurement& measurement, LinearisedMeasurement& ou
   if (measurement.kind == MeasurementKind::kPixel) {
     return linearise_with(BearingObservation{camera_model_}, state_, measurement, out);
   }
-  return linearise_with(EuclideanObservation{options_.min_inverse_depth}, state_, measurement, out);
+  if (!linearise_with(EuclideanObservation{options_.min_inverse_depth}, state_, measurement, out))
+    return false;
+  return options_.point_form == PointForm::kEuclidean || to_inverse_distance(measurement, out);
 }
 
 void Filter::collect(std::span<const Measurement> measurements) {

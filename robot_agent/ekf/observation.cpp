@@ -73,4 +73,16 @@ std::optional<Eigen::Vector3d> EuclideanObservation::predict(const CameraState& 
   return h_e;
 }
 
+Eigen::Vector3d bearing_and_inverse_distance(const Eigen::Vector3d& p_S, Eigen::Matrix3d* J) {
+  const double distance = p_S.norm();
+  const double x = p_S.x() / p_S.z();
+  const double y = p_S.y() / p_S.z();
+  if (J != nullptr) {
+    J->row(0) << 1.0 / p_S.z(), 0.0, -x / p_S.z();
+    J->row(1) << 0.0, 1.0 / p_S.z(), -y / p_S.z();
+    J->row(2) = -p_S.transpose() / (distance * distance * distance);
+  }
+  return {x, y, 1.0 / distance};
+}
+
 }  // namespace cosight::ekf

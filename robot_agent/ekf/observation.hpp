@@ -55,4 +55,8 @@ struct EuclideanObservation {
                                          PointJacobians* jacobians = nullptr) const;
 };
 
+/// A point of the camera as [x/z, y/z, 1/|p|]: bearing and inverse distance. What triangulation measures is
+/// nearly linear in these, and far from it in metres. `J` (may be null): d / d p_S. p_S.z() > 0.
+Eigen::Vector3d bearing_and_inverse_distance(const Eigen::Vector3d& p_S, Eigen::Matrix3d* J = nullptr);
+
 }  // namespace cosight::ekf
