@@ -12,11 +12,12 @@ namespace {
 
 using eprosima::fastdds::dds::Log;
 
+// Its warnings are mostly about peers that just left: for whoever looks closer.
 class LogConsumer : public eprosima::fastdds::dds::LogConsumer {
   void Consume(const Log::Entry& entry) override {
     const char* category = entry.context.category == nullptr ? "" : entry.context.category;
-    spdlog::log(entry.kind == Log::Error ? spdlog::level::err : spdlog::level::warn, "dds: [{}] {}", category,
-                entry.message);
+    spdlog::log(entry.kind == Log::Error ? spdlog::level::warn : spdlog::level::debug, "dds: [{}] {}",
+                category, entry.message);
   }
 };
 
