@@ -1,0 +1,68 @@
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "shared/dataset/sample.hpp"
+#include "shared/geometry/pose.hpp"
+#include "sim/scenario.hpp"
+
+namespace cosight::sim {
+
+/// The dataset folder cannot be written: names the file.
+class DatasetError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A pose at a time, for truth files.
+struct TimedPose {
+  Stamp stamp = 0;
+  Pose T;
+};
+
+/// A point whose place in W is surveyed, and the pixel that shows it in the first frame of Cs.
+struct KnownPoint {
+  Eigen::Vector3d p_W;
+  Eigen::Vector2d pixel;
+};
+
+/// How much the cameras see of each other's places at one frame.
+struct OverlapTruth {
+  Stamp stamp = 0;
+  double share_of_S = 0.0;  ///< of Cs' picture that Cf sees as well, 0 … 1
+  double share_of_F = 0.0;
+};
+
+/// A csv or text file that is complete on disk when it is closed, or else an error.
+class TextFile {
+ public:
+  explicit TextFile(const std::filesystem::path& file);
+  ~TextFile() = default;
+  TextFile(const TextFile&) = delete;
+  TextFile& operator=(const TextFile&) = delete;
+
+  std::ofstream& stream() { return stream_; }
+  void close();
+
+ private:
+  std::filesystem::path file_;
+  std::ofstream stream_;
+};
+
+/// The files of a Cosight dataset folder: `robot/`, `wearer/` and `truth/` below `folder`. All throw
+/// DatasetError.
+void write_calibration(const std::filesystem::path& file, const CameraModel& lens, const Pose& T_BC);
+void write_bytes(const std::filesystem::path& file, const std::vector<unsigned char>& bytes);
+void write_image_list(const std::filesystem::path& file, const std::vector<Stamp>& stamps,
+                      const std::vector<std::string>& names);
+void write_tum(const std::filesystem::path& file, const std::vector<TimedPose>& poses);
+void write_ahrs(const std::filesystem::path& file, const std::vector<AhrsSample>& samples);
+void write_wearer_poses(const std::filesystem::path& file, const std::vector<WearerPoseSample>& samples);
+void write_known_points(const std::filesystem::path& file, const std::vector<KnownPoint>& points);
+void write_overlap(const std::filesystem::path& file, const std::vector<OverlapTruth>& overlap);
+
+}  // namespace cosight::sim

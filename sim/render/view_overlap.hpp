@@ -1,0 +1,16 @@
+#pragma once
+
+#include <span>
+
+#include "shared/geometry/pose.hpp"
+#include "sim/render/camera.hpp"
+#include "sim/world/scene.hpp"
+
+namespace cosight::sim {
+
+/// Share of camera A's picture (0 … 1, on a grid of rays) that shows places which camera B sees as well, with
+/// nothing of the building between them.
+double seen_by_both(std::span<const Quad> building, const Camera& A, const Pose& T_WA, const Camera& B,
+                    const Pose& T_WB);
+
+}  // namespace cosight::sim

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "shared/geometry/camera_model.hpp"
+#include "shared/geometry/pose.hpp"
+#include "sim/motion/path.hpp"
+#include "sim/motion/robot_motion.hpp"
+#include "sim/motion/wearer_motion.hpp"
+#include "sim/render/exposure.hpp"
+#include "sim/render/film.hpp"
+#include "sim/sensors/ahrs.hpp"
+#include "sim/sensors/tracker.hpp"
+#include "sim/world/floor_plan.hpp"
+
+namespace cosight::sim {
+
+/// A camera and how it is carried.
+struct CameraPlan {
+  CameraModel lens;
+  Pose T_BC;  ///< in the body that carries it (robot B, head H), optical frame
+  TimingPlan timing{.rate = 10.0};
+  ShutterPlan shutter;
+  int jpeg_quality = 90;
+  ExposurePlan exposure;
+};
+
+/// Everything a run consists of; the defaults are a small corridor with a turn.
+struct Scenario {
+  std::string name = "scene";
+  double duration = 0.0;  ///< 0: until the robot has arrived [s]
+  FloorPlan plan;
+  PathPlan path;
+  Shaking shaking;
+  WearerPlan wearer;
+  CameraPlan robot_camera;
+  CameraPlan wearer_camera;
+  AhrsPlan ahrs;
+  TrackerPlan tracker;
+  int known_points = 12;  ///< surveyed points in the first frame; 0: none
+};
+
+/// The pose of an optical frame (x right, y down, z forward) in a body (x forward, y left, z up): at `place`,
+/// turned to the left by `yaw` and up by `pitch` [rad].
+Pose optical_mount(const Eigen::Vector3d& place, double yaw, double pitch);
+
+}  // namespace cosight::sim

@@ -1,0 +1,54 @@
+#include "sim/world/lighting.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+namespace cosight::sim {
+namespace {
+
+constexpr double kAmbient = 0.75;
+constexpr double kLamp = 0.55;  // brightness that one lamp adds at kReach
+constexpr double kReach = 1.5;  // [m]
+constexpr double kStep = 0.2;   // [m] between the points at which the light is computed
+
+}  // namespace
+
+Lighting::Lighting(const Eigen::Vector2d& low, const Eigen::Vector2d& high, double height, double spacing) {
+  for (double x = low.x() + 0.5 * spacing; x < high.x(); x += spacing) {
+    for (double y = low.y() + 0.5 * spacing; y < high.y(); y += spacing)
+      lamps_.emplace_back(x, y, height);
+  }
+}
+
+double Lighting::at(const Eigen::Vector3d& p, const Eigen::Vector3d& outward) const {
+  double light = kAmbient;
+  for (const Eigen::Vector3d& lamp : lamps_) {
+    const Eigen::Vector3d way = lamp - p;
+    const double distance = way.norm();
+    if (distance > 4.0 * kReach) continue;
+    // Half of it regardless of the direction: light that other walls pass on.
+    const double facing = 0.5 + 0.5 * std::max(0.0, way.dot(outward) / std::max(0.05, distance));
+    const double fade = 1.0 - distance / (4.0 * kReach);
+    light += kLamp * facing * fade * fade / (1.0 + distance * distance / (kReach * kReach));
+  }
+  return std::min(light, 1.45);
+}
+
+void Lighting::bake(const Quad& quad, cv::Mat& picture) const {
+  const Eigen::Vector3d outward = -quad.inward_normal().normalized();
+  const int columns = std::max(2, static_cast<int>(quad.edge_s.norm() / kStep));
+  const int rows = std::max(2, static_cast<int>(quad.edge_t.norm() / kStep));
+  cv::Mat light(rows, columns, CV_32F);
+  for (int y = 0; y < rows; ++y) {
+    for (int x = 0; x < columns; ++x) {
+      const Eigen::Vector3d p =
+          quad.origin + quad.edge_s * ((x + 0.5) / columns) + quad.edge_t * ((y + 0.5) / rows);
+      light.at<float>(y, x) = static_cast<float>(at(p, outward));
+    }
+  }
+  cv::resize(light, light, picture.size(), 0, 0, cv::INTER_LINEAR);
+  cv::multiply(picture, light, picture, 1.0, CV_8U);
+}
+
+}  // namespace cosight::sim
