@@ -14,6 +14,7 @@ namespace cosight {
 struct WearerView {
   Stamp stamp = 0;                         ///< of the worn camera's image, on the robot's clock
   std::shared_ptr<const GrayImage> image;  ///< never null
+  CameraModel camera;                      ///< calibration of Cf
   UncertainPose T_SF;           ///< pose of the free camera in the SLAM camera, covariance included
   bool has_orientation = true;  ///< false: T_SF.T.q is unknown, and `q_WF` stands for it
   /// Orientation of the free camera in W from the AHRS (yaw offset to W already applied), and its covariance

@@ -25,6 +25,7 @@ std::vector<std::pair<std::string_view, std::uint64_t>> named_counts(const Inbox
       {"paired", counters.paired},
       {"no_pair", counters.no_pair},
       {"no_pose", counters.no_pose},
+      {"no_calibration", counters.no_calibration},
       {"no_orientation", counters.no_orientation},
       {"wait_timeouts", counters.wait_timeouts},
       {"second_wearer", counters.second_wearer},

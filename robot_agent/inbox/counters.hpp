@@ -34,6 +34,7 @@ struct InboxCounters {
   std::uint64_t paired = 0;           ///< robot frames with a worn frame and its pose
   std::uint64_t no_pair = 0;          ///< robot frames without a worn frame near enough
   std::uint64_t no_pose = 0;          ///< robot frames whose worn frame has no pose near enough
+  std::uint64_t no_calibration = 0;   ///< pairs given up: the worn camera's calibration is not known yet
   std::uint64_t no_orientation = 0;   ///< pairs with a position only, and no AHRS near enough
   std::uint64_t wait_timeouts = 0;    ///< robot frames handed on because max_wait was over
   std::uint64_t second_wearer = 0;    ///< samples refused: another wearer with the same id is alive

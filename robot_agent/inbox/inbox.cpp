@@ -12,7 +12,7 @@ namespace cosight::inbox {
 Inbox::Inbox(const InboxOptions& options, ArrivalClock clock)
     : clock_(std::move(clock)),
       robot_size_(options.robot_size),
-      wearer_size_(options.wearer_size),
+      camera_F_(options.camera_F),
       session_(options.pairing.wearer_silence),
       pairing_(options.pairing, options.interpolation, options.mounting) {}
 
@@ -99,9 +99,9 @@ bool Inbox::finished() const {
   return closed_ && pairing_.queued_robot_frames() == 0;
 }
 
-void Inbox::set_wearer_size(ImageSize size) {
+void Inbox::set_wearer_camera(const CameraModel& camera_F) {
   const std::lock_guard lock(mutex_);
-  wearer_size_ = size;
+  camera_F_ = camera_F;
 }
 
 InboxCounters Inbox::counters() const {
@@ -111,6 +111,7 @@ InboxCounters Inbox::counters() const {
   counters.robot_wrong_size = edge_counters_.robot_wrong_size;
   counters.worn_undecodable = edge_counters_.worn_undecodable;
   counters.worn_wrong_size = edge_counters_.worn_wrong_size;
+  counters.no_calibration = edge_counters_.no_calibration;
   counters.second_wearer = edge_counters_.second_wearer;
   return counters;
 }
@@ -136,11 +137,6 @@ std::optional<PairedFrame> Inbox::wait_for_paired(Stamp timeout) {
 
 FrameBundle Inbox::decode(PairedFrame paired) {
   const auto start = std::chrono::steady_clock::now();
-  ImageSize wearer_size;
-  {
-    const std::lock_guard lock(mutex_);
-    wearer_size = wearer_size_;
-  }
   FrameBundle bundle;
   bundle.stamp = paired.frame.stamp;
   bundle.sequence = paired.frame.sequence;
@@ -149,11 +145,7 @@ FrameBundle Inbox::decode(PairedFrame paired) {
     bundle.image = decode_image(paired.frame, robot_size_, &InboxCounters::robot_undecodable,
                                 &InboxCounters::robot_wrong_size);
   }
-  if (paired.worn) {
-    auto image = decode_image(paired.worn->frame, wearer_size, &InboxCounters::worn_undecodable,
-                              &InboxCounters::worn_wrong_size);
-    if (image) bundle.wearer = wearer_view(*paired.worn, std::move(image));
-  }
+  if (paired.worn) bundle.wearer = decode_worn(*paired.worn);
   bundle.decode_ms =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   return bundle;
@@ -169,10 +161,21 @@ std::shared_ptr<const GrayImage> Inbox::decode_image(const ImageSample& frame, c
   return std::move(decoded.image);
 }
 
-WearerView Inbox::wearer_view(const WornMatch& worn, std::shared_ptr<const GrayImage> image) {
+std::optional<WearerView> Inbox::decode_worn(const WornMatch& worn) {
+  std::optional<CameraModel> camera_F;
+  {
+    const std::lock_guard lock(mutex_);
+    camera_F = camera_F_;
+    if (!camera_F) ++edge_counters_.no_calibration;
+  }
+  if (!camera_F) return std::nullopt;
+  auto image = decode_image(worn.frame, {camera_F->width, camera_F->height}, &InboxCounters::worn_undecodable,
+                            &InboxCounters::worn_wrong_size);
+  if (!image) return std::nullopt;
   WearerView view;
   view.stamp = worn.frame.stamp;
   view.image = std::move(image);
+  view.camera = *camera_F;
   view.T_SF = worn.pose.T_SF;
   view.has_orientation = worn.pose.has_orientation;
   if (worn.q_WF) {

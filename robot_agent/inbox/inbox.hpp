@@ -52,8 +52,8 @@ class Inbox {
   /// Closed, and every frame has gone out.
   bool finished() const;
 
-  /// Size of the worn camera's images, once its calibration is known.
-  void set_wearer_size(ImageSize size);
+  /// Calibration of the worn camera, once it is known; without it no worn frame can be used.
+  void set_wearer_camera(const CameraModel& camera_F);
   StampMapping& stamps() { return stamps_; }
   InboxCounters counters() const;
 
@@ -65,7 +65,7 @@ class Inbox {
   FrameBundle decode(PairedFrame paired);
   std::shared_ptr<const GrayImage> decode_image(const ImageSample& frame, const ImageSize& expected,
                                                 Count undecodable, Count wrong_size);
-  static WearerView wearer_view(const WornMatch& worn, std::shared_ptr<const GrayImage> image);
+  std::optional<WearerView> decode_worn(const WornMatch& worn);
 
   StampMapping stamps_;
   ArrivalClock clock_;
@@ -74,10 +74,11 @@ class Inbox {
   mutable std::mutex mutex_;
   std::condition_variable arrived_;
   std::condition_variable taken_;
-  ImageSize wearer_size_;
+  std::optional<CameraModel> camera_F_;
   WearerSession session_;
   Pairing pairing_;
-  InboxCounters edge_counters_;  ///< undecodable, wrong size, second wearer; the rest is the pairing's
+  InboxCounters
+      edge_counters_;  ///< undecodable, wrong size, no calibration, second wearer; the rest is the pairing's
   bool closed_ = false;
 };
 

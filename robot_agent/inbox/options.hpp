@@ -3,8 +3,11 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 
 #include "shared/dataset/stamp.hpp"
+#include "shared/geometry/camera_model.hpp"
 
 namespace cosight::inbox {
 
@@ -60,8 +63,8 @@ struct InboxOptions {
   PairingOptions pairing;
   InterpolationOptions interpolation;
   MountingOptions mounting;
-  ImageSize robot_size;   ///< [px] of the SLAM camera's calibration
-  ImageSize wearer_size;  ///< [px] of the free camera's calibration
+  ImageSize robot_size;                 ///< [px] of the SLAM camera's calibration
+  std::optional<CameraModel> camera_F;  ///< calibration of the free camera, when it is not sent
 };
 
 }  // namespace cosight::inbox

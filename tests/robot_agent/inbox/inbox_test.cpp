@@ -17,6 +17,13 @@ constexpr Stamp ms(std::int64_t milliseconds) {
 constexpr PeerId kWearer{1};
 constexpr PeerId kOtherWearer{2};
 
+CameraModel camera_of(int width, int height) {
+  CameraModel camera;
+  camera.width = width;
+  camera.height = height;
+  return camera;
+}
+
 ImageSample mono_frame(Stamp stamp, std::uint8_t value = 7) {
   ImageSample frame;
   frame.stamp = stamp;
@@ -55,7 +62,7 @@ class TwoAgentInbox : public testing::Test {
   static InboxOptions options() {
     InboxOptions options;
     options.robot_size = {8, 4};
-    options.wearer_size = {8, 4};
+    options.camera_F = camera_of(8, 4);
     return options;
   }
 
@@ -220,12 +227,26 @@ TEST_F(TwoAgentInbox, WornFramesWithoutPixelsLeaveTheRobotFrameAlone) {
 }
 
 TEST_F(TwoAgentInbox, ItsCalibrationSaysHowLargeWornFramesAre) {
-  inbox_.set_wearer_size({16, 16});
+  inbox_.set_wearer_camera(camera_of(16, 16));
   step();
   inbox_.push_ahrs(ahrs(stamp_), kWearer);
   inbox_.push_wearer_frame(jpeg_frame(stamp_, 16, 16), kWearer);
   expect_complete(1);
-  EXPECT_EQ(paired_since(0), 1);
+  ASSERT_EQ(paired_since(0), 1);
+  EXPECT_EQ(bundles_[0].wearer->camera.width, 16);
+}
+
+TEST_F(TwoAgentInbox, WithoutACalibrationNoWornFrameIsUsed) {
+  Inbox inbox({}, [this] { return now_; });
+  inbox.push_robot_frame(mono_frame(ms(100)));
+  inbox.push_wearer_pose(pose(ms(100)));
+  inbox.push_ahrs(ahrs(ms(100)), kWearer);
+  inbox.push_wearer_frame(mono_frame(ms(100)), kWearer);
+  const auto bundle = inbox.pop(0);
+  ASSERT_TRUE(bundle);
+  EXPECT_FALSE(bundle->wearer);
+  EXPECT_NE(bundle->image, nullptr);
+  EXPECT_EQ(inbox.counters().no_calibration, 1U);
 }
 
 TEST_F(TwoAgentInbox, ASlowEstimatorLosesImagesButNoRow) {
