@@ -1,0 +1,85 @@
+#include "robot_agent/outbox/run_record.hpp"
+
+#include <fstream>
+#include <utility>
+
+#include "robot_agent/map/map_files.hpp"
+#include "robot_agent/outbox/frame_log.hpp"
+#include "robot_agent/outbox/output_error.hpp"
+#include "robot_agent/outbox/process_usage.hpp"
+
+namespace cosight::outbox {
+namespace {
+
+/// False when not everything went out.
+bool write_text(const std::filesystem::path& path, const std::string& text) {
+  std::ofstream file(path, std::ios::binary);
+  file << text;
+  file.close();
+  return !file.fail();
+}
+
+std::string lost_lines(const LineFile& file) {
+  return file.path().string() + ": " + std::to_string(file.lost_lines()) + " lines are missing: " +
+         (file.failure().empty() ? "the disk was full for too long" : file.failure());
+}
+
+}  // namespace
+
+RunRecord::RunRecord(const RunFolder& folder, RunDescription description)
+    : folder_(folder.path()),
+      description_(std::move(description)),
+      trajectory_(folder / "trajectory.tum"),
+      frames_(folder / "frames.csv") {
+  trajectory_.append("# T_WS: t[s] px py pz[m] qx qy qz qw");
+  frames_.append(frame_log_header());
+  if (!write_text(folder / "config.yaml", description_.config)) {
+    throw OutputError((folder / "config.yaml").string() + ": can't be written");
+  }
+}
+
+void RunRecord::add(const FrameBundle& bundle, const FrameEstimate& estimate) {
+  trajectory_.append(trajectory_line(estimate));
+  frames_.append(frame_log_row(bundle, estimate));
+  statistics_.add(bundle, estimate);
+}
+
+std::vector<std::string> RunRecord::finish(std::span<const MapPoint> map, double run_seconds,
+                                           const Report& report) {
+  std::vector<std::string> problems;
+  for (LineFile* file : {&trajectory_, &frames_}) {
+    file->close();
+    if (file->lost_lines() > 0) problems.push_back(lost_lines(*file));
+  }
+  try {
+    map::write_ply(folder_ / "map.ply", map);
+    map::write_pcd(folder_ / "map.pcd", map);
+  } catch (const map::MapFileError& error) {
+    problems.emplace_back(error.what());
+  }
+  const std::filesystem::path path = folder_ / "summary.yaml";
+  if (!write_text(path, summary(map.size(), run_seconds, report))) {
+    problems.push_back(path.string() + ": can't be written");
+  }
+  return problems;
+}
+
+const std::string& RunRecord::failure() const {
+  return trajectory_.failure().empty() ? frames_.failure() : trajectory_.failure();
+}
+
+std::string RunRecord::summary(std::size_t map_points, double run_seconds, const Report& report) const {
+  const ProcessUsage usage = process_usage();
+  YamlText text;
+  text.value("version", description_.version).value("mode", description_.mode);
+  text.value("run_s", run_seconds)
+      .value("cpu_percent", run_seconds > 0.0 ? 100.0 * usage.cpu_seconds / run_seconds : 0.0)
+      .value("peak_memory_mb", usage.peak_memory_mb)
+      .value("map_points", static_cast<std::uint64_t>(map_points))
+      .value("lost_lines", trajectory_.lost_lines() + frames_.lost_lines());
+  statistics_.report(text);
+  if (report) report(text);
+  return text.text();
+}
+
+}  // namespace cosight::outbox
