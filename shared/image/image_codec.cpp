@@ -3,22 +3,8 @@
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 
-#include "shared/image/image_header.hpp"
-
 namespace cosight {
 namespace {
-
-DecodeOutcome judge(const std::optional<ImageHeader>& header, const SizeLimits& limits) {
-  if (!header) return DecodeOutcome::kNotAnImage;
-  if (static_cast<std::int64_t>(header->width) * header->height > limits.max_pixels) {
-    return DecodeOutcome::kTooLarge;
-  }
-  if ((limits.width > 0 && header->width != limits.width) ||
-      (limits.height > 0 && header->height != limits.height)) {
-    return DecodeOutcome::kWrongSize;
-  }
-  return header->complete ? DecodeOutcome::kDecoded : DecodeOutcome::kTruncated;
-}
 
 /// A header over memory that OpenCV only reads, though its type can't say so.
 cv::Mat over(const std::uint8_t* data, int rows, int columns) {
@@ -46,9 +32,21 @@ const char* to_string(DecodeOutcome outcome) {
   return "unknown";
 }
 
+DecodeOutcome judge_header(const std::optional<ImageHeader>& header, const SizeLimits& limits) {
+  if (!header) return DecodeOutcome::kNotAnImage;
+  if (static_cast<std::int64_t>(header->width) * header->height > limits.max_pixels) {
+    return DecodeOutcome::kTooLarge;
+  }
+  if ((limits.width > 0 && header->width != limits.width) ||
+      (limits.height > 0 && header->height != limits.height)) {
+    return DecodeOutcome::kWrongSize;
+  }
+  return header->complete ? DecodeOutcome::kDecoded : DecodeOutcome::kTruncated;
+}
+
 DecodeOutcome decode_gray(std::span<const std::uint8_t> bytes, const SizeLimits& limits, GrayImage& image) {
   const auto header = read_image_header(bytes);
-  const DecodeOutcome verdict = judge(header, limits);
+  const DecodeOutcome verdict = judge_header(header, limits);
   if (verdict != DecodeOutcome::kDecoded) return verdict;
   image.width = header->width;
   image.height = header->height;

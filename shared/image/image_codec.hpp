@@ -2,12 +2,14 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "shared/image/gray_image.hpp"
+#include "shared/image/image_header.hpp"
 
 namespace cosight {
 
@@ -28,6 +30,9 @@ struct SizeLimits {
   int height = 0;                        ///< [px]; 0: any
   std::int64_t max_pixels = 64'000'000;  ///< about 8000 x 8000
 };
+
+/// What the header alone says about decoding: kDecoded when nothing speaks against it.
+DecodeOutcome judge_header(const std::optional<ImageHeader>& header, const SizeLimits& limits);
 
 /// Decodes a JPEG or PNG to gray. Never throws on bad bytes, and reuses the memory of `image` when it is of
 /// the same size. An EXIF orientation is ignored: a calibration knows the sensor's own rows and columns.

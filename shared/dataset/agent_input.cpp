@@ -1,0 +1,143 @@
+#include "shared/dataset/agent_input.hpp"
+
+#include <algorithm>
+#include <numbers>
+#include <utility>
+
+#include "shared/config/calibration.hpp"
+#include "shared/dataset/cosight_dataset.hpp"
+#include "shared/dataset/dataset_error.hpp"
+#include "shared/dataset/image_list_source.hpp"
+#include "shared/dataset/merged_source.hpp"
+#include "shared/dataset/v4l2_source.hpp"
+#include "shared/dataset/video_source.hpp"
+
+namespace cosight {
+namespace {
+
+constexpr double kDegrees = std::numbers::pi / 180.0;
+
+FrameOutput read_output(const ConfigNode& node) {
+  FrameOutput output;
+  output.encoding = node.choice(
+      "encoding", output.encoding,
+      {{"jpeg", ImageEncoding::kJpeg}, {"png", ImageEncoding::kPng}, {"raw", ImageEncoding::kMono8}});
+  const int quality = node.integer("quality", 0, 0, 100);
+  if (quality > 0) output.quality = quality;
+  return output;
+}
+
+void require_one_source(const ConfigNode& node, const InputOptions& options) {
+  const auto given = {!options.dataset.empty(), !options.images.empty(), !options.video.empty(),
+                      !options.device.empty()};
+  const auto count = std::count(given.begin(), given.end(), true);
+  if (count == 1) return;
+  throw node.error(count == 0 ? "dataset" : "images",
+                   "give " + std::string(count == 0 ? "one" : "only one") +
+                       " of dataset, images, video and device (--dataset DIR is the simplest)");
+}
+
+/// EuRoC's sensor.yaml lies beside data.csv.
+std::filesystem::path calibration_of(const InputOptions& options) {
+  if (!options.calibration.empty()) return options.calibration;
+  for (const char* beside :
+       {"mav0/cam0/sensor.yaml", "cam0/sensor.yaml", "sensor.yaml", "calibration.yaml"}) {
+    const auto file = options.images / beside;
+    if (!options.images.empty() && std::filesystem::exists(file)) return file;
+  }
+  throw ConfigError("input.calibration: is missing; give the yaml file with the camera's calibration");
+}
+
+AgentInput prepare_dataset(const InputOptions& options, Agent agent) {
+  const CosightDataset dataset(options.dataset);
+  AgentInput input;
+  if (agent == Agent::kRobot) {
+    input.camera = dataset.robot_camera();
+    input.known_points = dataset.known_points();
+    input.open = [dataset, options] { return dataset.open_robot(options.output, options.wearer_pose_noise); };
+  } else {
+    input.camera = dataset.wearer_camera();
+    input.open = [dataset, options] {
+      return dataset.open_wearer(options.output, options.ahrs_noise, options.gate);
+    };
+  }
+  return input;
+}
+
+std::unique_ptr<SampleSource> open_camera(const InputOptions& options, const FrameOutput& output,
+                                          const std::atomic<bool>& stop) {
+  if (!options.video.empty()) return std::make_unique<VideoSource>(options.video, options.rate_hz, output);
+  if (options.device.empty()) {
+    return std::make_unique<ImageListSource>(find_images(options.images, options.rate_hz), output);
+  }
+  V4l2Options camera;
+  camera.device = options.device;
+  camera.width = output.width;
+  camera.height = output.height;
+  if (options.rate_hz > 0.0) camera.rate_hz = options.rate_hz;
+  return std::make_unique<V4l2Source>(camera, output, stop);
+}
+
+std::unique_ptr<SampleSource> open_parts(const InputOptions& options, const FrameOutput& output, Agent agent,
+                                         const std::atomic<bool>& stop) {
+  std::vector<std::unique_ptr<SampleSource>> sources;
+  if (agent == Agent::kWearer && !options.ahrs.empty()) {
+    sources.push_back(open_ahrs_csv(options.ahrs, options.ahrs_noise));
+  }
+  if (agent == Agent::kRobot && !options.wearer_pose.empty()) {
+    sources.push_back(open_wearer_pose_csv(options.wearer_pose, options.wearer_pose_noise));
+  }
+  auto frames = open_camera(options, output, stop);
+  if (!options.gate.empty()) frames = std::make_unique<GatedSource>(std::move(frames), options.gate);
+  if (sources.empty()) return frames;
+  sources.push_back(std::move(frames));
+  return std::make_unique<MergedSource>(std::move(sources));
+}
+
+}  // namespace
+
+InputOptions read_input_options(const ConfigNode& node) {
+  InputOptions options;
+  options.dataset = node.path("dataset", options.dataset);
+  options.images = node.path("images", options.images);
+  options.video = node.path("video", options.video);
+  options.device = node.path("device", options.device);
+  options.calibration = node.path("calibration", options.calibration);
+  options.camera = node.text("camera", options.camera);
+  options.rate_hz = node.number("rate_hz", options.rate_hz, 0.0, 1000.0);
+  options.ahrs = node.path("ahrs", options.ahrs);
+  options.wearer_pose = node.path("wearer_pose", options.wearer_pose);
+  const auto degrees = [&](const char* key, double otherwise) {
+    return kDegrees * node.number(key, otherwise / kDegrees, 1e-3, 180.0);
+  };
+  options.ahrs_noise.tilt = degrees("ahrs_tilt_sigma_deg", options.ahrs_noise.tilt);
+  options.ahrs_noise.yaw = degrees("ahrs_yaw_sigma_deg", options.ahrs_noise.yaw);
+  options.wearer_pose_noise.position =
+      node.number("wearer_position_sigma_m", options.wearer_pose_noise.position, 1e-5, 100.0);
+  options.wearer_pose_noise.rotation =
+      degrees("wearer_rotation_sigma_deg", options.wearer_pose_noise.rotation);
+  const auto gate = parse_intervals(node.text("gate", ""));
+  if (!gate) throw node.error("gate", "is no list of seconds; write it as 0:1.5,3:4.2");
+  options.gate = *gate;
+  options.output = read_output(node);
+  require_one_source(node, options);
+  return options;
+}
+
+AgentInput prepare_input(const InputOptions& options, Agent agent, const std::atomic<bool>& stop) {
+  AgentInput input;
+  if (!options.dataset.empty()) {
+    input = prepare_dataset(options, agent);
+  } else {
+    input.camera = load_camera_model(calibration_of(options), options.camera);
+    FrameOutput output = options.output;
+    output.width = input.camera.width;
+    output.height = input.camera.height;
+    input.live = !options.device.empty();
+    input.open = [options, output, agent, &stop] { return open_parts(options, output, agent, stop); };
+  }
+  if (!input.live) input.open();  // so that a fault shows now, not in the thread that plays
+  return input;
+}
+
+}  // namespace cosight

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "shared/config/config.hpp"
+#include "shared/dataset/frame_encoder.hpp"
+#include "shared/dataset/gated_source.hpp"
+#include "shared/dataset/motion_csv.hpp"
+
+namespace cosight {
+
+/// Where an agent's samples come from; the section `input` of its configuration. One of the first four.
+struct InputOptions {
+  std::filesystem::path dataset;  ///< a Cosight dataset folder, with everything in it
+  std::filesystem::path images;   ///< csv, EuRoC or KITTI folder, or plain folder with rate_hz
+  std::filesystem::path video;
+  std::filesystem::path device;  ///< /dev/video0
+
+  std::filesystem::path calibration;  ///< a dataset and an EuRoC folder have their own
+  std::string camera = "cam0";        ///< its section in the calibration
+  double rate_hz = 0.0;               ///< of a plain folder, a video or a camera; 0: theirs
+  std::filesystem::path ahrs;         ///< wearer: csv beside images, video or device
+  std::filesystem::path wearer_pose;  ///< robot: csv beside images, video or device
+  AhrsNoise ahrs_noise;
+  WearerPoseNoise wearer_pose_noise;
+  std::vector<TimeInterval> gate;  ///< images only inside; empty: always
+  FrameOutput output;
+};
+
+/// Throws ConfigError, also when none or several of dataset, images, video and device are given.
+InputOptions read_input_options(const ConfigNode& node);
+
+enum class Agent { kRobot, kWearer };
+
+/// An input that has been looked at and can be opened, again for every lap of a loop.
+struct AgentInput {
+  SourceFactory open;
+  CameraModel camera;
+  bool live = false;                     ///< a camera: comes at its own pace and can't be repeated
+  std::vector<KnownPoint> known_points;  ///< of a dataset, for the robot
+};
+
+/// Throws ConfigError or DatasetError with the file's name. `stop` ends a live source; it has to outlive it.
+AgentInput prepare_input(const InputOptions& options, Agent agent, const std::atomic<bool>& stop);
+
+}  // namespace cosight

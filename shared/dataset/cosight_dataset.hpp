@@ -1,0 +1,51 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "shared/dataset/frame_encoder.hpp"
+#include "shared/dataset/gated_source.hpp"
+#include "shared/dataset/motion_csv.hpp"
+
+namespace cosight {
+
+/// The folder of a two-agent sequence, as the simulator and `cosight prepare` write it:
+///
+///   robot/calibration.yaml (cam0)  robot/cam0.csv  robot/wearer_pose.csv  robot/known_points.csv
+///   wearer/calibration.yaml (cam0) wearer/cam0.csv wearer/ahrs.csv
+///   truth/robot_cam0.tum           truth/wearer_cam0.tum
+///
+/// Of each agent the first two have to be there; the formats are those of image_list.hpp and motion_csv.hpp,
+/// the stamps of both agents are of one clock.
+class CosightDataset {
+ public:
+  /// Throws DatasetError when there is no such folder.
+  explicit CosightDataset(std::filesystem::path folder);
+
+  bool has_wearer() const;
+
+  /// Throw ConfigError or DatasetError, each naming the file.
+  CameraModel robot_camera() const;
+  CameraModel wearer_camera() const;
+
+  /// Frames and, when there are any, poses of the worn camera. The size in `output` is set from the
+  /// calibration.
+  std::unique_ptr<SampleSource> open_robot(FrameOutput output = {}, const WearerPoseNoise& noise = {}) const;
+
+  /// Frames, only inside `gate` when that is not empty, and orientations when there are any.
+  std::unique_ptr<SampleSource> open_wearer(FrameOutput output = {}, const AhrsNoise& noise = {},
+                                            const std::vector<TimeInterval>& gate = {}) const;
+
+  /// None when there is no robot/known_points.csv.
+  std::vector<KnownPoint> known_points() const;
+
+  std::filesystem::path robot_calibration() const { return folder_ / "robot/calibration.yaml"; }
+  std::filesystem::path wearer_calibration() const { return folder_ / "wearer/calibration.yaml"; }
+  std::filesystem::path robot_truth() const { return folder_ / "truth/robot_cam0.tum"; }
+  std::filesystem::path wearer_truth() const { return folder_ / "truth/wearer_cam0.tum"; }
+
+ private:
+  std::filesystem::path folder_;
+};
+
+}  // namespace cosight
