@@ -7,7 +7,7 @@
 namespace cosight::vision {
 
 PatchMatch BandSearch::find(const GrayImage& image_F, const BandTarget& target, const EpipolarBand& band) {
-  constexpr double kPieceLength = 24.0;  // [px] over which one warp holds
+  constexpr double kPieceLength = 40.0;  // [px] over which one warp holds
   peaks_.clear();
   searched_ = false;
   best_patch_ = Patch{};

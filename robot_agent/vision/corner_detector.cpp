@@ -52,9 +52,9 @@ cv::Rect searched_box(const GrayImage& image, const CornerOptions& options, cons
   return box & cv::Rect(low, high);
 }
 
-/// The best corner of every 4x4 pixels that FAST proposes. FAST's own suppression of neighbours drops all of
-/// several equal ones, which clean drawings have.
-std::vector<Corner> propose(const GrayImage& image, const CornerOptions& options, const ConvexPolygon* roi) {
+/// The best corner of every 4x4 pixels that FAST proposes.
+std::vector<Corner> propose(const GrayImage& image, const CornerOptions& options, const ConvexPolygon* roi,
+                            bool suppress_neighbours) {
   constexpr int kFastRadius = 3;
   constexpr int kBlock = 4;
   const cv::Rect box = searched_box(image, options, roi);
@@ -62,7 +62,7 @@ std::vector<Corner> propose(const GrayImage& image, const CornerOptions& options
   const cv::Rect searched(box.x - kFastRadius, box.y - kFastRadius, box.width + 2 * kFastRadius,
                           box.height + 2 * kFastRadius);
   std::vector<cv::KeyPoint> keypoints;
-  cv::FAST(opencv_view(image)(searched), keypoints, options.fast_threshold, false);
+  cv::FAST(opencv_view(image)(searched), keypoints, options.fast_threshold, suppress_neighbours);
   const int columns = searched.width / kBlock + 1;
   std::vector<Corner> best(static_cast<std::size_t>(columns * (searched.height / kBlock + 1)));
   for (const cv::KeyPoint& keypoint : keypoints) {
@@ -117,7 +117,10 @@ std::vector<Corner> CornerDetector::detect(const GrayImage& image,
   for (const Eigen::Vector2d& pixel : occupied)
     cells.count_one_more(cells.cell_of(pixel));
   std::vector<RankedCorner> ranked;
-  for (const Corner& corner : propose(image, options_, roi)) {
+  std::vector<Corner> proposed = propose(image, options_, roi, true);
+  // FAST drops all of several equal neighbours, which clean drawings have: ask again where little is found.
+  if (static_cast<int>(proposed.size()) < max_corners) proposed = propose(image, options_, roi, false);
+  for (const Corner& corner : proposed) {
     if (!is_clear(corner.pixel, occupied, options_.min_distance)) continue;
     ranked.push_back({corner, cells.cell_of(corner.pixel), 0});
   }

@@ -38,6 +38,31 @@ double centroid_angle(const GrayImage& image, const Eigen::Vector2d& pixel, int 
   return std::atan2(moment_y, moment_x);
 }
 
+/// 255 inside the region.
+cv::Mat region_mask(const ConvexPolygon& roi, const PixelBox& box) {
+  std::vector<cv::Point> corners;
+  for (const Eigen::Vector2d& corner : roi) {
+    corners.emplace_back(static_cast<int>(std::lround(corner.x())) - box.left,
+                         static_cast<int>(std::lround(corner.y())) - box.top);
+  }
+  cv::Mat mask = cv::Mat::zeros(box.height, box.width, CV_8UC1);
+  cv::fillConvexPoly(mask, corners, cv::Scalar(255));
+  return mask;
+}
+
+void keep_strongest_inside(std::vector<cv::KeyPoint>& keypoints, const ConvexPolygon& roi,
+                           const PixelBox& box, int max_features) {
+  std::erase_if(keypoints, [&](const cv::KeyPoint& keypoint) {
+    const cv::Point2f& p = keypoint.pt;
+    return !contains(roi, Eigen::Vector2d(box.left, box.top) + Eigen::Vector2d(p.x, p.y));
+  });
+  std::stable_sort(keypoints.begin(), keypoints.end(),
+                   [](const cv::KeyPoint& a, const cv::KeyPoint& b) { return a.response > b.response; });
+  if (keypoints.size() > static_cast<std::size_t>(max_features)) {
+    keypoints.resize(static_cast<std::size_t>(max_features));
+  }
+}
+
 /// ORB and SIFT, as OpenCV has them.
 class OpencvExtractor final : public DescriptorExtractor {
  public:
@@ -50,19 +75,17 @@ class OpencvExtractor final : public DescriptorExtractor {
     if (box.empty() || max_features <= 0) return {};
     const cv::Mat part = opencv_view(image)(cv::Rect(box.left, box.top, box.width, box.height));
     std::vector<cv::KeyPoint> keypoints;
-    features().detect(part, keypoints);
-    std::erase_if(keypoints, [&](const cv::KeyPoint& keypoint) {
-      const cv::Point2f& p = keypoint.pt;
-      return !contains(roi, Eigen::Vector2d(box.left, box.top) + Eigen::Vector2d(p.x, p.y));
-    });
-    std::stable_sort(keypoints.begin(), keypoints.end(),
-                     [](const cv::KeyPoint& a, const cv::KeyPoint& b) { return a.response > b.response; });
-    if (keypoints.size() > static_cast<std::size_t>(max_features)) {
-      keypoints.resize(static_cast<std::size_t>(max_features));
+    cv::Mat descriptors;
+    if (kind_ == DescriptorKind::kOrb) {
+      // ORB counts its features inside the mask, so that one pass over one pyramid is enough.
+      orb_->setMaxFeatures(max_features);
+      orb_->detectAndCompute(part, region_mask(roi, box), keypoints, descriptors);
+    } else {
+      sift_->detect(part, keypoints);
+      keep_strongest_inside(keypoints, roi, box, max_features);
+      if (!keypoints.empty()) sift_->compute(part, keypoints, descriptors);
     }
-    for (std::size_t i = 0; i < keypoints.size(); ++i)
-      keypoints[i].class_id = static_cast<int>(i);
-    DescribedFeatures described = compute(part, box, keypoints);
+    DescribedFeatures described = gather(box, keypoints, descriptors);
     for (std::size_t i = 0; i < described.size(); ++i)
       described.sources[i] = i;
     return described;
@@ -86,21 +109,22 @@ class OpencvExtractor final : public DescriptorExtractor {
                              0, static_cast<int>(i));
     }
     const cv::Mat part = opencv_view(image)(cv::Rect(box.left, box.top, box.width, box.height));
-    return compute(part, box, keypoints);
+    cv::Mat descriptors;
+    if (keypoints.empty()) return {};
+    if (kind_ == DescriptorKind::kOrb) {
+      orb_->compute(part, keypoints, descriptors);
+    } else {
+      sift_->compute(part, keypoints, descriptors);
+    }
+    return gather(box, keypoints, descriptors);
   }
 
  private:
   static constexpr int kMargin = 32;  // [px] what ORB's patch needs around a point
 
-  cv::Feature2D& features() const {
-    return kind_ == DescriptorKind::kOrb ? static_cast<cv::Feature2D&>(*orb_) : *sift_;
-  }
-
-  DescribedFeatures compute(const cv::Mat& part, const PixelBox& box,
-                            std::vector<cv::KeyPoint>& keypoints) const {
+  static DescribedFeatures gather(const PixelBox& box, const std::vector<cv::KeyPoint>& keypoints,
+                                  const cv::Mat& descriptors) {
     DescribedFeatures described;
-    cv::Mat descriptors;
-    if (!keypoints.empty()) features().compute(part, keypoints, descriptors);
     for (const cv::KeyPoint& keypoint : keypoints) {
       described.pixels.emplace_back(Eigen::Vector2d(box.left, box.top) +
                                     Eigen::Vector2d(keypoint.pt.x, keypoint.pt.y));

@@ -17,19 +17,28 @@ struct Raster {
   int width;
   int height;
 
+  bool holds(const Eigen::Vector2d& position) const {
+    return position.x() >= 0.0 && position.y() >= 0.0 && position.x() < width - 1.0 &&
+           position.y() < height - 1.0;
+  }
+
+  /// Beyond the border its gray level.
+  float clamped_at(const Eigen::Vector2d& position) const {
+    constexpr double kJustInside = 1e-6;
+    return at({std::clamp(position.x(), 0.0, width - 1.0 - kJustInside),
+               std::clamp(position.y(), 0.0, height - 1.0 - kJustInside)});
+  }
+
+  /// Of a position that it holds.
   float at(const Eigen::Vector2d& position) const {
-    const double x = std::clamp(position.x(), 0.0, static_cast<double>(width - 1));
-    const double y = std::clamp(position.y(), 0.0, static_cast<double>(height - 1));
-    const int x0 = std::min(static_cast<int>(x), std::max(width - 2, 0));
-    const int y0 = std::min(static_cast<int>(y), std::max(height - 2, 0));
-    const int x1 = std::min(x0 + 1, width - 1);
-    const int y1 = std::min(y0 + 1, height - 1);
-    const float fx = static_cast<float>(x - x0);
-    const float fy = static_cast<float>(y - y0);
-    const std::uint8_t* upper = data + static_cast<std::ptrdiff_t>(y0) * width;
-    const std::uint8_t* lower = data + static_cast<std::ptrdiff_t>(y1) * width;
-    const float above = static_cast<float>(upper[x0]) + fx * static_cast<float>(upper[x1] - upper[x0]);
-    const float below = static_cast<float>(lower[x0]) + fx * static_cast<float>(lower[x1] - lower[x0]);
+    const int x = static_cast<int>(position.x());
+    const int y = static_cast<int>(position.y());
+    const auto fx = static_cast<float>(position.x() - x);
+    const auto fy = static_cast<float>(position.y() - y);
+    const std::uint8_t* upper = data + static_cast<std::ptrdiff_t>(y) * width + x;
+    const std::uint8_t* lower = upper + width;
+    const float above = static_cast<float>(upper[0]) + fx * static_cast<float>(upper[1] - upper[0]);
+    const float below = static_cast<float>(lower[0]) + fx * static_cast<float>(lower[1] - lower[0]);
     return above + fy * (below - above);
   }
 };
@@ -60,24 +69,36 @@ Patch make_patch(const GrayLevels& gray, int side) {
   return patch;
 }
 
-/// Samples `raster` at centre + B [dx, dy]; with `oversample`, the mean of four points half a step apart.
-Patch sample(const Raster& raster, const Eigen::Vector2d& centre, const Eigen::Matrix2d& B, int side,
-             bool oversample) {
-  assert(side % 2 == 1 && side <= Patch::kMaxSide);
+template <class GrayAt>
+void sample_grid(const Eigen::Vector2d& centre, const Eigen::Matrix2d& B, int side, bool oversample,
+                 GrayAt at, GrayLevels& gray) {
   const int half = side / 2;
-  const Eigen::Vector2d along_x = 0.25 * B.col(0);
-  const Eigen::Vector2d along_y = 0.25 * B.col(1);
-  GrayLevels gray;
+  const Eigen::Vector2d diagonal = 0.25 * (B.col(0) + B.col(1));
+  const Eigen::Vector2d antidiagonal = 0.25 * (B.col(0) - B.col(1));
   std::size_t i = 0;
   for (int dy = -half; dy <= half; ++dy) {
     for (int dx = -half; dx <= half; ++dx, ++i) {
       const Eigen::Vector2d position = centre + dx * B.col(0) + dy * B.col(1);
-      gray[i] =
-          oversample
-              ? 0.25F * (raster.at(position - along_x - along_y) + raster.at(position + along_x - along_y) +
-                         raster.at(position - along_x + along_y) + raster.at(position + along_x + along_y))
-              : raster.at(position);
+      gray[i] = oversample ? 0.25F * (at(position - diagonal) + at(position + diagonal) +
+                                      at(position - antidiagonal) + at(position + antidiagonal))
+                           : at(position);
     }
+  }
+}
+
+/// Samples `raster` at centre + B [dx, dy]; with `oversample`, the mean of four points half a step apart.
+Patch sample(const Raster& raster, const Eigen::Vector2d& centre, const Eigen::Matrix2d& B, int side,
+             bool oversample) {
+  assert(side % 2 == 1 && side <= Patch::kMaxSide);
+  const double reach = side / 2 + 0.25;
+  const Eigen::Vector2d extent = reach * B.cwiseAbs().rowwise().sum();
+  GrayLevels gray;
+  if (raster.holds(centre - extent) && raster.holds(centre + extent)) {
+    sample_grid(
+        centre, B, side, oversample, [&](const Eigen::Vector2d& p) { return raster.at(p); }, gray);
+  } else {
+    sample_grid(
+        centre, B, side, oversample, [&](const Eigen::Vector2d& p) { return raster.clamped_at(p); }, gray);
   }
   return make_patch(gray, side);
 }

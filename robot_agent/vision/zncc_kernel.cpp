@@ -19,8 +19,7 @@ constexpr int kStride = Patch::kStride;
 
 void correlate_row_sse2(const std::int16_t* templ, int side, const std::int16_t* window, int stride,
                         int count, std::int32_t* out) {
-  int x = 0;
-  for (; x + 4 <= count; x += 4) {
+  for (int x = 0; x < count; x += kCorrelationBlock) {
     __m128i sum[4] = {};
     for (int r = 0; r < side; ++r) {
       const auto* t = reinterpret_cast<const __m128i*>(templ + static_cast<std::ptrdiff_t>(r) * kStride);
@@ -38,14 +37,12 @@ void correlate_row_sse2(const std::int16_t* templ, int side, const std::int16_t*
     const __m128i total = _mm_add_epi32(_mm_unpacklo_epi64(a, b), _mm_unpackhi_epi64(a, b));
     _mm_storeu_si128(reinterpret_cast<__m128i*>(out + x), total);
   }
-  if (x < count) correlate_row_portable(templ, side, window + x, stride, count - x, out + x);
 }
 
 __attribute__((target("avx2"))) void correlate_row_avx2(const std::int16_t* templ, int side,
                                                         const std::int16_t* window, int stride, int count,
                                                         std::int32_t* out) {
-  int x = 0;
-  for (; x + 4 <= count; x += 4) {
+  for (int x = 0; x < count; x += kCorrelationBlock) {
     __m256i sum[4] = {};
     for (int r = 0; r < side; ++r) {
       const __m256i t = _mm256_load_si256(
@@ -61,7 +58,6 @@ __attribute__((target("avx2"))) void correlate_row_avx2(const std::int16_t* temp
     const __m128i total = _mm_add_epi32(_mm256_castsi256_si128(pairs), _mm256_extracti128_si256(pairs, 1));
     _mm_storeu_si128(reinterpret_cast<__m128i*>(out + x), total);
   }
-  if (x < count) correlate_row_portable(templ, side, window + x, stride, count - x, out + x);
 }
 
 #endif

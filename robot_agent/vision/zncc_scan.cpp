@@ -91,7 +91,7 @@ void ZnccScan::load_window(const GrayImage& image, const Patch& patch, int left,
                            int height) {
   window_width_ = width;
   stride_ = width + Patch::kStride;  // the kernel reads a full padded row at the last position
-  window_.resize(index(stride_ * height));
+  window_.resize(index(stride_ * height + kCorrelationBlock));
   for (int y = 0; y < height; ++y) {
     const std::uint8_t* from = image.row(top + y) + left;
     std::int16_t* to = window_.data() + index(y * stride_);
@@ -171,7 +171,7 @@ void ZnccScan::find_peaks(const GrayImage& image, const Patch& patch, const Scan
   const int height = static_cast<int>(region.rows.size());
   load_window(image, patch, left - half, region.top - half, width + patch.side - 1, height + patch.side - 1);
   scores_.assign(index(width * height), kOutside);
-  products_.resize(index(width));
+  products_.resize(index(width + kCorrelationBlock));
   for (int y = 0; y < height; ++y) {
     sum_columns(y, patch.side);
     const ScanRegion::Span& span = region.rows[index(y)];
