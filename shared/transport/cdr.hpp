@@ -35,10 +35,10 @@ Fault serialize(const Message& message, std::size_t max_bytes, std::vector<std::
   return Fault::kNone;
 }
 
-/// A generated message from any bytes. Fast CDR refuses lengths beyond the payload; std::bad_alloc is caught
-/// with the rest.
-template <class Message>
-Fault deserialize(std::span<const std::uint8_t> payload, std::size_t max_bytes, Message& message) {
+/// Calls `read` on the body of a payload that came from anywhere. Fast CDR refuses lengths beyond the
+/// payload; std::bad_alloc is caught with its refusals.
+template <class Read>
+Fault read_body(std::span<const std::uint8_t> payload, std::size_t max_bytes, Read read) {
   if (payload.size() > max_bytes) return Fault::kTooLarge;
   if (payload.size() < kEncapsulationBytes) return Fault::kMalformed;
   try {
@@ -48,11 +48,17 @@ Fault deserialize(std::span<const std::uint8_t> payload, std::size_t max_bytes, 
     eprosima::fastcdr::Cdr cdr(buffer, eprosima::fastcdr::Cdr::LITTLE_ENDIANNESS,
                                eprosima::fastcdr::Cdr::DDS_CDR);
     cdr.read_encapsulation();
-    message.deserialize(cdr);
+    read(cdr);
   } catch (const std::exception&) {
     return Fault::kMalformed;
   }
   return Fault::kNone;
+}
+
+/// A generated message from any bytes.
+template <class Message>
+Fault deserialize(std::span<const std::uint8_t> payload, std::size_t max_bytes, Message& message) {
+  return read_body(payload, max_bytes, [&](eprosima::fastcdr::Cdr& cdr) { message.deserialize(cdr); });
 }
 
 }  // namespace cosight::transport

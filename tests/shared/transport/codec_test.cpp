@@ -160,6 +160,28 @@ TEST_F(Codec, AgentNameMayNotCarryControlCharacters) {
   EXPECT_EQ(encoding(topics::kRobotHeartbeat, heartbeat), Fault::kText);
 }
 
+// After the encapsulation: stamp 8, length of "map" 4, "map" 4, height 4, width 4, number of fields.
+constexpr std::size_t kNumberOfFields = 4 + 8 + 4 + 4 + 4 + 4;
+
+TEST_F(Codec, CloudWithMoreFieldsThanAnyCloudHasIsRefusedBeforeTheyAreRead) {
+  Payload payload;
+  ASSERT_EQ(encode(example_.cloud(100), topics::kRobotMap.profile, payload), Fault::kNone);
+  ASSERT_EQ(payload[kNumberOfFields], 5);
+  payload[kNumberOfFields] = 65;
+  PointCloudSample back;
+  EXPECT_EQ(decode(payload, topics::kRobotMap.profile, back), Fault::kDimensions);
+}
+
+TEST_F(Codec, CloudWithoutBytesIsEmptyWhateverItsHeightSays) {
+  Payload payload;
+  ASSERT_EQ(encode(example_.cloud(0), topics::kRobotMap.profile, payload), Fault::kNone);
+  for (std::size_t i = 0; i < 4; ++i)
+    payload[kNumberOfFields - 8 + i] = 0xFF;  // four milliard rows of nothing
+  PointCloudSample back = example_.cloud(3);
+  EXPECT_EQ(decode(payload, topics::kRobotMap.profile, back), Fault::kNone);
+  EXPECT_TRUE(back.points.empty());
+}
+
 /// All payloads of the wire, each with the function that reads it.
 class HostilePayload : public ::testing::Test {
  protected:
