@@ -237,7 +237,7 @@ void Pairing::forget_worn_frames_before(Stamp stamp) {
   }
 }
 
-ImageSample Pairing::take(WornFrames::const_iterator worn) {
+ImageSample Pairing::take(const WornFrames::const_iterator& worn) {
   const auto place = worn_frames_.begin() + (worn - worn_frames_.cbegin());
   ImageSample frame = std::move(*place);
   --worn_size_.images;

@@ -98,7 +98,7 @@ class Pairing {
   void attach_worn_frame(const PendingFrame& pending, PairedFrame& paired);
   void forget_unusable_worn_frames();
   void forget_worn_frames_before(Stamp stamp);
-  ImageSample take(WornFrames::const_iterator worn);
+  ImageSample take(const WornFrames::const_iterator& worn);
 
   PairingOptions options_;
   InterpolationOptions interpolation_;
