@@ -9,6 +9,7 @@ namespace cosight::vision {
 namespace {
 
 constexpr float kOutside = -2.0F;
+constexpr float kLeastPeak = 0.01F;  // ZNCC 0.1, squared: less is no likeness at all
 constexpr double kMaxOffset = 0.75;  // [px] farther from its pixel a peak would be another pixel's
 
 std::size_t index(int i) {
@@ -92,6 +93,8 @@ void ZnccScan::load_window(const GrayImage& image, const Patch& patch, int left,
   window_width_ = width;
   stride_ = width + Patch::kStride;  // the kernel reads a full padded row at the last position
   window_.resize(index(stride_ * height + kCorrelationBlock));
+  column_.resize(index(width + 1));
+  column2_.resize(index(width + 1));
   for (int y = 0; y < height; ++y) {
     const std::uint8_t* from = image.row(top + y) + left;
     std::int16_t* to = window_.data() + index(y * stride_);
@@ -101,25 +104,31 @@ void ZnccScan::load_window(const GrayImage& image, const Patch& patch, int left,
   }
 }
 
-/// Column sums for the row of positions `row`: fresh for the first, then one row in and one row out.
+/// Column sums for the row of positions `row`: fresh for the first, then one row in and one row out. The
+/// squares are of 16-bit numbers, which is what the vector unit multiplies.
 void ZnccScan::sum_columns(int row, int side) {
-  const auto add = [this](int y, int sign) {
-    const std::int16_t* w = window_.data() + index(y * stride_);
-    for (int x = 0; x < window_width_; ++x) {
-      const std::int32_t value = w[x];
-      column_[index(x)] += sign * value;
-      column2_[index(x)] += sign * value * value;
-    }
-  };
+  const int width = window_width_;
+  std::int32_t* column = column_.data();
+  std::int32_t* column2 = column2_.data();
+  const auto row_at = [this](int y) { return window_.data() + index(y * stride_); };
   if (row > 0) {
-    add(row - 1, -1);
-    add(row + side - 1, 1);
+    const std::int16_t* leaving = row_at(row - 1);
+    const std::int16_t* entering = row_at(row + side - 1);
+    for (int x = 0; x < width; ++x) {
+      column[x] += entering[x] - leaving[x];
+      column2[x] += entering[x] * entering[x] - leaving[x] * leaving[x];
+    }
     return;
   }
-  column_.assign(index(window_width_), 0);
-  column2_.assign(index(window_width_), 0);
-  for (int y = 0; y < side; ++y)
-    add(y, 1);
+  std::fill_n(column, width, 0);
+  std::fill_n(column2, width, 0);
+  for (int y = 0; y < side; ++y) {
+    const std::int16_t* entering = row_at(y);
+    for (int x = 0; x < width; ++x) {
+      column[x] += entering[x];
+      column2[x] += entering[x] * entering[x];
+    }
+  }
 }
 
 // ZNCC = (n sum(t w) - sum(t) sum(w)) / sqrt((n sum(t^2) - sum(t)^2) (n sum(w^2) - sum(w)^2)). Its signed
@@ -130,29 +139,40 @@ void ZnccScan::score_row(const Patch& patch, int row, const ScanRegion::Span& sp
   correlate_row_(patch.deviations.data(), patch.side, window_.data() + index(row * stride_ + begin), stride_,
                  count, products_.data());
   const int side = patch.side;
-  const double n = side * side;
-  const double min_variation = n * n;  // one gray level of standard deviation
-  const double scale = patch.inverse_norm * patch.inverse_norm;
   std::int32_t sum = 0;
   std::int32_t sum2 = 0;
   for (int c = 0; c < side; ++c) {
     sum += column_[index(begin + c)];
     sum2 += column2_[index(begin + c)];
   }
-  const int scores_stride = window_width_ - side + 1;
-  float* scores = scores_.data() + index(row * scores_stride + begin);
   for (int x = 0; x < count; ++x) {
-    const double s = sum;
-    const double variation = n * sum2 - s * s;
-    const double covariation = n * products_[index(x)] - patch.sum * s;
-    scores[x] = variation < min_variation
-                    ? 0.0F
-                    : static_cast<float>(covariation * std::abs(covariation) * scale / variation);
-    if (x + 1 < count) {
-      sum += column_[index(begin + x + side)] - column_[index(begin + x)];
-      sum2 += column2_[index(begin + x + side)] - column2_[index(begin + x)];
-    }
+    sums_[index(x)] = sum;
+    sums2_[index(x)] = sum2;
+    // After the last position a column past the window would come: column_ has room for it.
+    sum += column_[index(begin + x + side)] - column_[index(begin + x)];
+    sum2 += column2_[index(begin + x + side)] - column2_[index(begin + x)];
   }
+  const double n = side * side;
+  const double min_variation = n * n;  // one gray level of standard deviation
+  const double scale = patch.inverse_norm * patch.inverse_norm;
+  const double patch_sum = patch.sum;
+  float* scores = score_at_row(row) + begin;
+  for (int x = 0; x < count; ++x) {
+    const double s = sums_[index(x)];
+    const double variation = n * sums2_[index(x)] - s * s;
+    const double covariation = n * products_[index(x)] - patch_sum * s;
+    const double score = covariation * std::abs(covariation) * scale / std::max(variation, min_variation);
+    scores[x] = variation < min_variation ? 0.0F : static_cast<float>(score);
+  }
+}
+
+/// Greatest of its eight neighbours; of equal ones the first counts. The border of kOutside stops it.
+bool ZnccScan::is_peak(const float* score) const {
+  const float s = *score;
+  const float* above = score - scores_stride_;
+  const float* below = score + scores_stride_;
+  return s > score[-1] && s >= score[1] && s > above[0] && s >= below[0] && s > above[-1] && s > above[1] &&
+         s >= below[-1] && s >= below[1];
 }
 
 void ZnccScan::find_peaks(const GrayImage& image, const Patch& patch, const ScanRegion& region, int max_peaks,
@@ -170,32 +190,24 @@ void ZnccScan::find_peaks(const GrayImage& image, const Patch& patch, const Scan
   const int width = right - left + 1;
   const int height = static_cast<int>(region.rows.size());
   load_window(image, patch, left - half, region.top - half, width + patch.side - 1, height + patch.side - 1);
-  scores_.assign(index(width * height), kOutside);
+  scores_stride_ = width + 2;
+  scores_.assign(index(scores_stride_ * (height + 2)), kOutside);
   products_.resize(index(width + kCorrelationBlock));
+  sums_.resize(index(width));
+  sums2_.resize(index(width));
   for (int y = 0; y < height; ++y) {
     sum_columns(y, patch.side);
     const ScanRegion::Span& span = region.rows[index(y)];
     if (span.begin < span.end) score_row(patch, y, span, left);
   }
-  const auto is_peak = [&](int x, int y) {
-    const float score = scores_[index(y * width + x)];
-    for (int v = std::max(y - 1, 0); v <= std::min(y + 1, height - 1); ++v) {
-      for (int u = std::max(x - 1, 0); u <= std::min(x + 1, width - 1); ++u) {
-        const float other = scores_[index(v * width + u)];
-        // Of equal neighbours the first counts.
-        if (other > score || (other == score && v * width + u < y * width + x)) return false;
-      }
-    }
-    return true;
-  };
   for (int y = 0; y < height; ++y) {
+    const float* scores = score_at_row(y);
     for (int x = 0; x < width; ++x) {
-      const float score = scores_[index(y * width + x)];
-      const auto worst = static_cast<double>(score);
+      if (scores[x] < kLeastPeak || !is_peak(scores + x)) continue;
+      const Peak peak{left + x, region.top + y, static_cast<double>(scores[x])};
       const bool full = static_cast<int>(peaks.size()) == max_peaks;
-      if (score <= 0.0F || (full && worst <= peaks.back().score) || !is_peak(x, y)) continue;
+      if (full && peak.score <= peaks.back().score) continue;
       if (full) peaks.pop_back();
-      const Peak peak{left + x, region.top + y, worst};
       const auto place = std::upper_bound(peaks.begin(), peaks.end(), peak,
                                           [](const Peak& a, const Peak& b) { return a.score > b.score; });
       peaks.insert(place, peak);

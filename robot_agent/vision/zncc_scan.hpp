@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -41,7 +42,7 @@ struct Peak {
 class ZnccScan {
  public:
   /// `peaks` receives the local maxima (over eight neighbours inside the region), best first, at most
-  /// `max_peaks`.
+  /// `max_peaks`; none under a ZNCC of 0.1.
   void find_peaks(const GrayImage& image, const Patch& patch, const ScanRegion& region, int max_peaks,
                   std::vector<Peak>& peaks);
 
@@ -57,6 +58,11 @@ class ZnccScan {
   void sum_columns(int row, int side);
   void score_row(const Patch& patch, int row, const ScanRegion::Span& span, int left);
 
+  bool is_peak(const float* score) const;
+  float* score_at_row(int row) {
+    return scores_.data() + static_cast<std::ptrdiff_t>(row + 1) * scores_stride_ + 1;
+  }
+
   CorrelateRow correlate_row_ = fastest_correlate_row();
   int stride_ = 0;                      ///< of window_, in elements
   int window_width_ = 0;                ///< [px]
@@ -64,7 +70,10 @@ class ZnccScan {
   std::vector<std::int32_t> column_;    ///< sum over the patch's height of a column of window_
   std::vector<std::int32_t> column2_;   ///< the same of squares
   std::vector<std::int32_t> products_;  ///< sums of products of one row
-  std::vector<float> scores_;           ///< sign(ZNCC) ZNCC^2, -2 outside the region
+  std::vector<std::int32_t> sums_;      ///< sums of windows of one row
+  std::vector<std::int32_t> sums2_;     ///< the same of squares
+  int scores_stride_ = 0;
+  std::vector<float> scores_;  ///< sign(ZNCC) ZNCC^2, -2 outside the region, one more on every side
 };
 
 }  // namespace cosight::vision
