@@ -3,14 +3,15 @@
 
 agent_pids=()
 
-# Whatever ends a script ends its agents too: only those that it started, by their process ids.
+# Whatever ends a script ends its agents too: only those that it started, by their process ids. TERM, because a shell
+# without a terminal starts its children deaf to INT; KILL for one that has not gone after five seconds.
 stop_agents() {
   local pid
   for pid in "${agent_pids[@]}"; do
-    kill -INT "$pid" 2>/dev/null || true
+    kill -TERM "$pid" 2>/dev/null || true
   done
   for pid in "${agent_pids[@]}"; do
-    wait "$pid" 2>/dev/null || true
+    wait_for "$pid" 5 || kill -KILL "$pid" 2>/dev/null || true
   done
   agent_pids=()
 }
@@ -48,13 +49,16 @@ run_agents() {
     agent_pids+=("$wearer")
   fi
   wait_for "$robot" "${run_limit_s:-300}" || status=$?
-  [[ -z $wearer ]] || wait_for "$wearer" 20 || say "the wearable ended with status $?; see $run_dir/wearable.log"
+  # A robot that ended well has seen the wearer's last frame; one that failed needs no wearer any more.
+  if [[ -n $wearer ]] && ((status == 0 || status == 3)); then
+    wait_for "$wearer" 20 || say "the wearable ended with status $?; see $run_dir/wearable.log"
+  fi
   stop_agents
   collect_logs "$run_dir"
   # 3 says that samples were lost; the run is still a run, and its summary counts them.
   if ((status != 0 && status != 3)); then
     tail -n 20 "$run_dir/robot.log" >&2
-    die "the robot ended with status $status in mode $mode; see $run_dir/robot.log"
+    die "the robot ended with status $status; see $run_dir/robot.log"
   fi
 }
 
