@@ -9,7 +9,7 @@
 int main(int argc, char** argv) {
   CLI::App program{"Cosight's tools around a run: prepare data, evaluate, summarise"};
   program.require_subcommand(1);
-  program.set_version_flag("--version", "0.1.0");
+  program.set_version_flag("--version", COSIGHT_VERSION);
   cosight::add_prepare_command(program);
   cosight::add_evaluate_command(program);
   cosight::add_summarise_command(program);
