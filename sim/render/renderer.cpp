@@ -180,32 +180,48 @@ bool Renderer::is_border(int row, int column) const {
 }
 
 void Renderer::shade_row(int row, const Pose& T_WC) {
+  constexpr int kSameFilter = 8;  // [px] over which the footprint hardly changes
+  std::uint16_t last = Radiance::kSky;
+  Texture::Filter filter;
   for (int column = 0; column < radiance_.width; ++column) {
     const std::size_t k = index_of(row, column, radiance_.width);
-    radiance_.brightness[k] = shade_pixel(row, column, T_WC);
+    const Eigen::Vector2f ray{camera_.rays_x()[k], camera_.rays_y()[k]};
+    if (is_border(row, column)) {
+      radiance_.brightness[k] = shade_border(row, column, T_WC);
+      continue;
+    }
+    if (winners_[k] != last || column % kSameFilter == 0) {
+      last = winners_[k];
+      filter = filter_at(last, ray, ray_step(row, column));
+    }
+    radiance_.brightness[k] = shade(last, ray, filter, T_WC);
   }
 }
 
-float Renderer::shade_pixel(int row, int column, const Pose& T_WC) const {
-  const std::size_t k = index_of(row, column, radiance_.width);
-  // Neighbours towards the inside give the ray's step, so that the last row and column have one as well.
-  const std::size_t beside = column + 1 < radiance_.width ? k + 1 : k - 1;
-  const std::size_t below = row + 1 < radiance_.height ? k + static_cast<std::size_t>(radiance_.width)
-                                                       : k - static_cast<std::size_t>(radiance_.width);
+Renderer::RayStep Renderer::ray_step(int row, int column) const {
+  // The last column and row take the step of the one before.
+  const std::size_t k =
+      index_of(std::min(row, radiance_.height - 2), std::min(column, radiance_.width - 2), radiance_.width);
+  const auto width = static_cast<std::size_t>(radiance_.width);
   const std::vector<float>& x = camera_.rays_x();
   const std::vector<float>& y = camera_.rays_y();
-  const Eigen::Vector2f ray{x[k], y[k]};
-  const Eigen::Vector2f step_x{std::abs(x[beside] - x[k]), y[beside] - y[k]};
-  const Eigen::Vector2f step_y{x[below] - x[k], std::abs(y[below] - y[k])};
-  if (!is_border(row, column)) return shade(winners_[k], ray, step_x, step_y, T_WC);
+  return {{x[k + 1] - x[k], y[k + 1] - y[k]}, {x[k + width] - x[k], y[k + width] - y[k]}};
+}
+
+float Renderer::shade_border(int row, int column, const Pose& T_WC) const {
+  const std::size_t k = index_of(row, column, radiance_.width);
+  const Eigen::Vector2f ray{camera_.rays_x()[k], camera_.rays_y()[k]};
+  const RayStep step = ray_step(row, column);
+  const RayStep half_step{0.5F * step.right, 0.5F * step.down};
   const std::span<const std::uint16_t> candidates = candidates_at(row, column);
-  float sum = 0.0F;
   // A rotated grid: four different columns and rows, better for near-vertical edges than a square one.
   constexpr std::array<std::array<float, 2>, 4> kParts{
       {{-0.375F, -0.125F}, {0.125F, -0.375F}, {0.375F, 0.125F}, {-0.125F, 0.375F}}};
+  float sum = 0.0F;
   for (const auto& [dx, dy] : kParts) {
-    const Eigen::Vector2f part = ray + dx * step_x + dy * step_y;
-    sum += shade(cast(candidates, part), part, 0.5F * step_x, 0.5F * step_y, T_WC);
+    const Eigen::Vector2f part = ray + dx * step.right + dy * step.down;
+    const std::uint16_t winner = cast(candidates, part);
+    sum += shade(winner, part, filter_at(winner, part, half_step), T_WC);
   }
   return 0.25F * sum;
 }
@@ -225,24 +241,31 @@ std::uint16_t Renderer::cast(std::span<const std::uint16_t> candidates, const Ei
   return winner;
 }
 
-float Renderer::shade(std::uint16_t visible, const Eigen::Vector2f& ray, const Eigen::Vector2f& step_x,
-                      const Eigen::Vector2f& step_y, const Pose& T_WC) const {
+Texture::Filter Renderer::filter_at(std::uint16_t visible, const Eigen::Vector2f& ray,
+                                    const RayStep& step) const {
+  if (visible == Radiance::kSky) return {};
+  const Plane& plane = planes_[visible];
+  const Quad& quad = quads_[visible_[visible]];
+  const float z = 1.0F / dot(plane.inverse_z, ray);
+  // Quotient rule on (s/z) / (1/z), along a step of the ray.
+  const Eigen::Vector3f ds = z * (plane.s_over_z - z * dot(plane.s_over_z, ray) * plane.inverse_z);
+  const Eigen::Vector3f dt = z * (plane.t_over_z - z * dot(plane.t_over_z, ray) * plane.inverse_z);
+  const Eigen::Vector2f du = (quad.u1 - quad.u0) * ds.head<2>();
+  const Eigen::Vector2f dv = (quad.v1 - quad.v0) * dt.head<2>();
+  return quad.texture->filter_for(
+      {du.dot(step.right), dv.dot(step.right), du.dot(step.down), dv.dot(step.down)});
+}
+
+float Renderer::shade(std::uint16_t visible, const Eigen::Vector2f& ray, const Texture::Filter& filter,
+                      const Pose& T_WC) const {
   if (visible == Radiance::kSky) return kSkyBrightness;
   const Plane& plane = planes_[visible];
   const Quad& quad = quads_[visible_[visible]];
   const float z = 1.0F / dot(plane.inverse_z, ray);
   const float s = z * dot(plane.s_over_z, ray);
   const float t = z * dot(plane.t_over_z, ray);
-  const float du = quad.u1 - quad.u0;
-  const float dv = quad.v1 - quad.v0;
-  // d(s/z / (1/z)): the quotient's derivative along a step of the ray.
-  const auto change = [&](const Eigen::Vector3f& over_z, float value, const Eigen::Vector2f& step) {
-    return z * ((over_z.x() - value * plane.inverse_z.x()) * step.x() +
-                (over_z.y() - value * plane.inverse_z.y()) * step.y());
-  };
-  const Footprint footprint{du * change(plane.s_over_z, s, step_x), dv * change(plane.t_over_z, t, step_x),
-                            du * change(plane.s_over_z, s, step_y), dv * change(plane.t_over_z, t, step_y)};
-  const float own = quad.shade * quad.texture->sample(quad.u0 + s * du, quad.v0 + t * dv, footprint);
+  const float own = quad.shade * quad.texture->sample(quad.u0 + s * (quad.u1 - quad.u0),
+                                                      quad.v0 + t * (quad.v1 - quad.v0), filter);
   if (quad.reflectivity <= 0.0F) return own;
   const Eigen::Vector3d p_C = static_cast<double>(z) * Eigen::Vector3d(ray.x(), ray.y(), 1.0);
   return (1.0F - quad.reflectivity) * own + quad.reflectivity * reflection(quad, p_C, T_WC);
@@ -259,9 +282,9 @@ float Renderer::reflection(const Quad& mirror, const Eigen::Vector3d& p_C, const
   const double width = (p_C.norm() + hit->range) / camera_.calibration().fx;
   const auto du = static_cast<float>(width / quad.edge_s.norm()) * (quad.u1 - quad.u0);
   const auto dv = static_cast<float>(width / quad.edge_t.norm()) * (quad.v1 - quad.v0);
-  return quad.shade * quad.texture->sample(quad.u0 + static_cast<float>(hit->s) * (quad.u1 - quad.u0),
-                                           quad.v0 + static_cast<float>(hit->t) * (quad.v1 - quad.v0),
-                                           {du, 0.0F, 0.0F, dv});
+  const float u = quad.u0 + static_cast<float>(hit->s) * (quad.u1 - quad.u0);
+  const float v = quad.v0 + static_cast<float>(hit->t) * (quad.v1 - quad.v0);
+  return quad.shade * quad.texture->sample(u, v, quad.texture->filter_for({du, 0.0F, 0.0F, dv}));
 }
 
 }  // namespace cosight::sim

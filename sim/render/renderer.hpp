@@ -47,6 +47,10 @@ class Renderer {
   struct Plane {
     Eigen::Vector3f inverse_z, s_over_z, t_over_z;
   };
+  /// How the ray changes from a pixel to the next on the right, and to the next below.
+  struct RayStep {
+    Eigen::Vector2f right, down;
+  };
   struct Tile {
     std::size_t first = 0, count = 0;  ///< in candidates_
   };
@@ -56,12 +60,14 @@ class Renderer {
   void set_planes(const Pose& T_WC);
   void find_winners(int row);
   void shade_row(int row, const Pose& T_WC);
-  float shade_pixel(int row, int column, const Pose& T_WC) const;
+  float shade_border(int row, int column, const Pose& T_WC) const;
   bool is_border(int row, int column) const;
   std::span<const std::uint16_t> candidates_at(int row, int column) const;
   std::uint16_t cast(std::span<const std::uint16_t> candidates, const Eigen::Vector2f& ray) const;
-  float shade(std::uint16_t visible, const Eigen::Vector2f& ray, const Eigen::Vector2f& step_x,
-              const Eigen::Vector2f& step_y, const Pose& T_WC) const;
+  RayStep ray_step(int row, int column) const;
+  Texture::Filter filter_at(std::uint16_t visible, const Eigen::Vector2f& ray, const RayStep& step) const;
+  float shade(std::uint16_t visible, const Eigen::Vector2f& ray, const Texture::Filter& filter,
+              const Pose& T_WC) const;
   float reflection(const Quad& mirror, const Eigen::Vector3d& p_C, const Pose& T_WC) const;
 
   const Camera& camera_;

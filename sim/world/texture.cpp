@@ -9,7 +9,7 @@
 namespace cosight::sim {
 namespace {
 
-constexpr float kMaxTaps = 8.0F;
+constexpr float kMaxTaps = 8.0F;  // int sums hold 8 * 255 * kOne^2
 
 GrayImage halved(const GrayImage& image) {
   GrayImage half{std::max(1, image.width / 2), std::max(1, image.height / 2), {}};
@@ -27,19 +27,24 @@ GrayImage halved(const GrayImage& image) {
   return half;
 }
 
-float bilinear(const GrayImage& image, float u, float v) {
-  u = std::clamp(u - 0.5F, 0.0F, static_cast<float>(image.width - 1));
-  v = std::clamp(v - 0.5F, 0.0F, static_cast<float>(image.height - 1));
-  const int x = static_cast<int>(u);
-  const int y = static_cast<int>(v);
-  const float fx = u - static_cast<float>(x);
-  const float fy = v - static_cast<float>(y);
-  const int x_step = x + 1 < image.width ? 1 : 0;
+/// Places in texels and weights are counted in parts of 1/256: integers are twice as fast here as floats.
+constexpr int kFraction = 8;
+constexpr int kOne = 1 << kFraction;
+
+/// Bilinear value at (u, v), times kOne^2; (0, 0) is the centre of the first texel. Clamped at the border.
+int bilinear(const GrayImage& image, int u, int v) {
+  u = std::clamp(u, 0, (image.width - 1) * kOne);
+  v = std::clamp(v, 0, (image.height - 1) * kOne);
+  const int x = u >> kFraction;
+  const int y = v >> kFraction;
+  const int fx = u & (kOne - 1);
+  const int fy = v & (kOne - 1);
   const std::uint8_t* above = image.row(y) + x;
-  const std::uint8_t* below = y + 1 < image.height ? above + image.width : above;
-  const float top = static_cast<float>(above[0]) + fx * static_cast<float>(above[x_step] - above[0]);
-  const float bottom = static_cast<float>(below[0]) + fx * static_cast<float>(below[x_step] - below[0]);
-  return top + fy * (bottom - top);
+  const std::uint8_t* below = above + (y + 1 < image.height ? image.width : 0);
+  const int beside = x + 1 < image.width ? 1 : 0;
+  const int top = above[0] * kOne + fx * (above[beside] - above[0]);
+  const int bottom = below[0] * kOne + fx * (below[beside] - below[0]);
+  return top * kOne + fy * (bottom - top);
 }
 
 /// Half the base-two logarithm of x, linear between powers of two: the level of a footprint of x texels
@@ -57,28 +62,42 @@ Texture::Texture(GrayImage picture) {
     levels_.push_back(halved(levels_.back()));
 }
 
-float Texture::sample(float u, float v, const Footprint& f) const {
+Texture::Filter Texture::filter_for(const Footprint& f) const {
   const float x_squared = f.du_dx * f.du_dx + f.dv_dx * f.dv_dx;
   const float y_squared = f.du_dy * f.du_dy + f.dv_dy * f.dv_dy;
   const bool x_longer = x_squared >= y_squared;
   const float long_squared = std::max(1e-12F, x_longer ? x_squared : y_squared);
   const float area = std::abs(f.du_dx * f.dv_dy - f.du_dy * f.dv_dx);
+  Filter filter;
   // The short axis is area / long axis; one tap covers the short axis, so their ratio is the number of taps.
-  const int taps = static_cast<int>(std::clamp(long_squared / std::max(area, 1e-6F) + 0.5F, 1.0F, kMaxTaps));
-  const auto count = static_cast<float>(taps);
+  filter.taps = static_cast<int>(std::clamp(long_squared / std::max(area, 1e-6F) + 0.5F, 1.0F, kMaxTaps));
+  const auto count = static_cast<float>(filter.taps);
   const float lod = half_log2(std::max(1.0F, long_squared / (count * count)));
-  const auto level = std::min(static_cast<std::size_t>(lod + 0.5F), levels_.size() - 1);
-  const GrayImage& image = levels_[level];
-  const auto u_scale = static_cast<float>(image.width) / static_cast<float>(width());
-  const auto v_scale = static_cast<float>(image.height) / static_cast<float>(height());
-  const float du = (x_longer ? f.du_dx : f.du_dy) / count;
-  const float dv = (x_longer ? f.dv_dx : f.dv_dy) / count;
-  float sum = 0.0F;
-  for (int k = 0; k < taps; ++k) {
-    const float offset = static_cast<float>(k) - 0.5F * (count - 1.0F);
-    sum += bilinear(image, (u + offset * du) * u_scale, (v + offset * dv) * v_scale);
+  filter.level = std::min(static_cast<int>(lod + 0.5F), static_cast<int>(levels_.size()) - 1);
+  const GrayImage& image = levels_[static_cast<std::size_t>(filter.level)];
+  filter.u_scale = static_cast<float>(kOne * image.width) / static_cast<float>(width());
+  filter.v_scale = static_cast<float>(kOne * image.height) / static_cast<float>(height());
+  const float du = (x_longer ? f.du_dx : f.du_dy) * filter.u_scale / count;
+  const float dv = (x_longer ? f.dv_dx : f.dv_dy) * filter.v_scale / count;
+  filter.u_step = static_cast<int>(du);
+  filter.v_step = static_cast<int>(dv);
+  filter.u_first = static_cast<int>(-0.5F * (count - 1.0F) * du) - kOne / 2;
+  filter.v_first = static_cast<int>(-0.5F * (count - 1.0F) * dv) - kOne / 2;
+  filter.weight = 1.0F / (static_cast<float>(kOne * kOne) * count);
+  return filter;
+}
+
+float Texture::sample(float u, float v, const Filter& filter) const {
+  const GrayImage& image = levels_[static_cast<std::size_t>(filter.level)];
+  int u_tap = static_cast<int>(u * filter.u_scale) + filter.u_first;
+  int v_tap = static_cast<int>(v * filter.v_scale) + filter.v_first;
+  int sum = bilinear(image, u_tap, v_tap);
+  for (int k = 1; k < filter.taps; ++k) {
+    u_tap += filter.u_step;
+    v_tap += filter.v_step;
+    sum += bilinear(image, u_tap, v_tap);
   }
-  return sum / count;
+  return static_cast<float>(sum) * filter.weight;
 }
 
 }  // namespace cosight::sim

@@ -18,9 +18,20 @@ class Texture {
  public:
   explicit Texture(GrayImage picture);
 
-  /// Brightness 0 … 255 at (u, v) [texels], (0, 0) the outer corner of the first texel, averaged over the
-  /// footprint: as many taps along its long axis (up to 8) as its short axis calls for.
-  float sample(float u, float v, const Footprint& footprint) const;
+  /// How to average over a footprint: as many taps along its long axis as its short axis calls for. Good for
+  /// several neighbouring pixels.
+  struct Filter {
+    int level = 0;
+    int taps = 1;
+    float u_scale = 1.0F, v_scale = 1.0F;  ///< places in the level, in parts of a texel, per texel
+    int u_first = 0, v_first = 0;          ///< from the place to the first tap
+    int u_step = 0, v_step = 0;            ///< from tap to tap
+    float weight = 1.0F;                   ///< of a tap
+  };
+  Filter filter_for(const Footprint& footprint) const;
+
+  /// Brightness 0 … 255 at (u, v) [texels], (0, 0) the outer corner of the first texel.
+  float sample(float u, float v, const Filter& filter) const;
 
   int width() const { return levels_.front().width; }
   int height() const { return levels_.front().height; }
