@@ -27,6 +27,26 @@ FrameOutput read_output(const ConfigNode& node) {
   return output;
 }
 
+double read_sigma(const ConfigNode& node, const char* key, double otherwise) {
+  return node.number(key, otherwise / kDegrees, 1e-3, 180.0) * kDegrees;
+}
+
+void read_wearer_options(const ConfigNode& node, InputOptions& options) {
+  options.ahrs = node.path("ahrs", options.ahrs);
+  options.ahrs_noise.tilt = read_sigma(node, "ahrs_tilt_sigma_deg", options.ahrs_noise.tilt);
+  options.ahrs_noise.yaw = read_sigma(node, "ahrs_yaw_sigma_deg", options.ahrs_noise.yaw);
+  const auto gate = parse_intervals(node.text("gate", ""));
+  if (!gate) throw node.error("gate", "is no list of seconds; write it as 0:1.5,3:4.2");
+  options.gate = *gate;
+}
+
+void read_robot_options(const ConfigNode& node, InputOptions& options) {
+  auto& noise = options.wearer_pose_noise;
+  options.wearer_pose = node.path("wearer_pose", options.wearer_pose);
+  noise.position = node.number("wearer_position_sigma_m", noise.position, 1e-5, 100.0);
+  noise.rotation = read_sigma(node, "wearer_rotation_sigma_deg", noise.rotation);
+}
+
 void require_one_source(const ConfigNode& node, const InputOptions& options) {
   const auto given = {!options.dataset.empty(), !options.images.empty(), !options.video.empty(),
                       !options.device.empty()};
@@ -96,7 +116,7 @@ std::unique_ptr<SampleSource> open_parts(const InputOptions& options, const Fram
 
 }  // namespace
 
-InputOptions read_input_options(const ConfigNode& node) {
+InputOptions read_input_options(const ConfigNode& node, Agent agent) {
   InputOptions options;
   options.dataset = node.path("dataset", options.dataset);
   options.images = node.path("images", options.images);
@@ -105,20 +125,11 @@ InputOptions read_input_options(const ConfigNode& node) {
   options.calibration = node.path("calibration", options.calibration);
   options.camera = node.text("camera", options.camera);
   options.rate_hz = node.number("rate_hz", options.rate_hz, 0.0, 1000.0);
-  options.ahrs = node.path("ahrs", options.ahrs);
-  options.wearer_pose = node.path("wearer_pose", options.wearer_pose);
-  const auto degrees = [&](const char* key, double otherwise) {
-    return kDegrees * node.number(key, otherwise / kDegrees, 1e-3, 180.0);
-  };
-  options.ahrs_noise.tilt = degrees("ahrs_tilt_sigma_deg", options.ahrs_noise.tilt);
-  options.ahrs_noise.yaw = degrees("ahrs_yaw_sigma_deg", options.ahrs_noise.yaw);
-  options.wearer_pose_noise.position =
-      node.number("wearer_position_sigma_m", options.wearer_pose_noise.position, 1e-5, 100.0);
-  options.wearer_pose_noise.rotation =
-      degrees("wearer_rotation_sigma_deg", options.wearer_pose_noise.rotation);
-  const auto gate = parse_intervals(node.text("gate", ""));
-  if (!gate) throw node.error("gate", "is no list of seconds; write it as 0:1.5,3:4.2");
-  options.gate = *gate;
+  if (agent == Agent::kWearer) {
+    read_wearer_options(node, options);
+  } else {
+    read_robot_options(node, options);
+  }
   options.output = read_output(node);
   require_one_source(node, options);
   return options;

@@ -30,10 +30,11 @@ struct InputOptions {
   FrameOutput output;
 };
 
-/// Throws ConfigError, also when none or several of dataset, images, video and device are given.
-InputOptions read_input_options(const ConfigNode& node);
-
 enum class Agent { kRobot, kWearer };
+
+/// Knows only the keys that mean something to `agent`. Throws ConfigError, also when none or several of
+/// dataset, images, video and device are given.
+InputOptions read_input_options(const ConfigNode& node, Agent agent);
 
 /// An input that has been looked at and can be opened, again for every lap of a loop.
 struct AgentInput {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <numbers>
 #include <vector>
 
 #include "shared/dataset/known_point.hpp"
@@ -10,14 +11,14 @@ namespace cosight {
 
 /// Standard deviation of an AHRS's roll, pitch [rad] and yaw [rad]; a csv does not say it.
 struct AhrsNoise {
-  double tilt = 0.0087;  ///< 0.5 degrees
-  double yaw = 0.0175;   ///< 1 degree
+  double tilt = 0.5 * std::numbers::pi / 180.0;
+  double yaw = 1.0 * std::numbers::pi / 180.0;
 };
 
 /// Of a tracked wearer's pose whose csv has no covariance columns.
 struct WearerPoseNoise {
-  double position = 0.01;  ///< [m]
-  double rotation = 0.01;  ///< [rad]
+  double position = 0.01;                            ///< [m]
+  double rotation = 0.5 * std::numbers::pi / 180.0;  ///< [rad]
 };
 
 /// Samples from memory, in their order.

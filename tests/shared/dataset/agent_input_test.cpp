@@ -37,7 +37,7 @@ class AgentInputTest : public DatasetFixture {
 
   InputOptions options(const std::vector<ConfigOverride>& overrides) const {
     const ConfigFile file = ConfigFile::parse("", "test.yaml", overrides);
-    InputOptions read = read_input_options(file.root().section("input"));
+    InputOptions read = read_input_options(file.root().section("input"), Agent::kWearer);
     file.refuse_unknown_keys();
     return read;
   }
