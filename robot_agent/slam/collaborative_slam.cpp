@@ -1,0 +1,322 @@
+#include "robot_agent/slam/collaborative_slam.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "robot_agent/slam/stopwatch.hpp"
+#include "robot_agent/vision/patch_warp.hpp"
+
+namespace cosight::slam {
+namespace {
+
+ekf::FilterOptions filter_options(const SlamOptions& options) {
+  ekf::FilterOptions result;
+  result.motion = {options.motion.sigma_acceleration, options.motion.sigma_angular_acceleration};
+  result.max_landmarks = options.map.max_landmarks + 20;  // known points and a frame's new ones
+  result.max_clones = options.candidates.first_pose == FirstPose::kCloned
+                          ? options.candidates.max_age_frames / options.candidates.keyframe_interval + 2
+                          : 0;
+  result.pixel_sigma = options.search.pixel_sigma;
+  result.max_iterations = options.search.max_iterations;
+  result.gate_probability = options.search.gate_probability;
+  result.correlated_wearer_pose = options.pseudo_stereo.correlated_updates;
+  return result;
+}
+
+vision::CornerOptions corner_options(const MapOptions& options) {
+  vision::CornerOptions result;
+  result.min_distance = options.min_distance_px;
+  return result;
+}
+
+UncertainPose start_pose(const StartOptions& start) {
+  UncertainPose T_WS;
+  T_WS.T = start.T_WS;
+  T_WS.covariance.diagonal().head<3>().setConstant(start.sigma_position * start.sigma_position);
+  T_WS.covariance.diagonal().tail<3>().setConstant(start.sigma_rotation * start.sigma_rotation);
+  return T_WS;
+}
+
+/// What is assumed of a point without depth: the median depth of the landmarks in view [m].
+double usual_depth(const std::vector<ekf::PixelPrediction>& predictions) {
+  std::vector<double> depths;
+  for (const auto& prediction : predictions) {
+    if (std::isfinite(prediction.depth) && prediction.depth > 0.0) depths.push_back(prediction.depth);
+  }
+  constexpr double kIndoors = 4.0;
+  if (depths.empty()) return kIndoors;
+  const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
+  std::nth_element(depths.begin(), middle, depths.end());
+  return *middle;
+}
+
+}  // namespace
+
+CollaborativeSlam::CollaborativeSlam(const CameraModel& camera_S, const SlamOptions& options,
+                                     std::vector<KnownPoint> known_points, WallClock clock)
+    : options_(options),
+      known_points_(std::move(known_points)),
+      clock_(std::move(clock)),
+      filter_(camera_S, filter_options(options)),
+      compatibility_({options.search.gate_probability, 3}),
+      search_(options.search),
+      candidates_(options.candidates, options.search.pixel_sigma),
+      pseudo_stereo_(options.pseudo_stereo, options.search.pixel_sigma, options.map.min_distance_px),
+      maintenance_(options.map),
+      motion_prior_(options.seed),
+      corners_(corner_options(options.map)) {
+  filter_.reset(start_pose(options.start), options.motion.start_sigma_velocity,
+                options.motion.start_sigma_angular_velocity);
+}
+
+FrameEstimate CollaborativeSlam::process(const FrameBundle& bundle) {
+  FrameEstimate estimate;
+  estimate.stamp = bundle.stamp;
+  estimate.sequence = bundle.sequence;
+  Stopwatch watch(clock_);
+
+  const bool known_motion = advance_to(bundle);  // predict, or find the motion in the images
+  watch.lap(estimate.timings.predict);
+
+  std::vector<Sighting> sightings;  // search
+  if (bundle.image) sightings = search_.find(*bundle.image, filter_, tracks_, known_motion, estimate.search);
+  watch.lap(estimate.timings.search);
+
+  const auto view = wearer_view(bundle, estimate);  // overlap
+  watch.lap(estimate.timings.overlap);
+
+  const auto measurements =
+      pseudo_stereo_.measure(view, bundle.image.get(), sightings, filter_, estimate.pseudo_stereo);
+  watch.lap(estimate.timings.pseudo_stereo);
+
+  const auto accepted = validate(measurements, estimate);
+  watch.lap(estimate.timings.validate);
+
+  const ekf::UpdateReport& report = filter_.update(accepted);
+  note_fused(sightings, report, estimate);
+  watch.lap(estimate.timings.update);
+
+  if (bundle.image) renew_map(*bundle.image, view, estimate, watch);
+  describe(estimate);
+  estimate.timings.total = watch.total();
+  return estimate;
+}
+
+bool CollaborativeSlam::advance_to(const FrameBundle& bundle) {
+  if (bundle.image) tracker_.advance(*bundle.image);
+  const double dt = last_stamp_ ? to_seconds(bundle.stamp - *last_stamp_) : 0.0;
+  last_stamp_ = bundle.stamp;
+  // Without a scale nothing can be estimated: W begins where the first depth is seen.
+  if (tracking_ == Tracking::kWaitingForScale || dt <= 0.0) return false;
+  const ekf::CameraState before = filter_.camera();
+  filter_.predict(dt);
+  const auto& predictions = search_.predict(filter_, tracks_);
+  if (!bundle.image || !is_wide(predictions)) return false;
+  const auto T_WS = motion_prior_.find(tracker_, filter_, tracks_);
+  if (!T_WS) return false;
+  filter_.recentre_camera(moved(before, *T_WS, dt));
+  search_.predict(filter_, tracks_);
+  return true;
+}
+
+bool CollaborativeSlam::is_wide(const std::vector<ekf::PixelPrediction>& predictions) const {
+  if (predictions.empty()) return !tracks_.all().empty();
+  std::vector<double> sigmas;
+  for (const auto& prediction : predictions)
+    sigmas.push_back(std::sqrt(0.5 * prediction.S.trace()));
+  const auto middle = sigmas.begin() + static_cast<std::ptrdiff_t>(sigmas.size() / 2);
+  std::nth_element(sigmas.begin(), middle, sigmas.end());
+  return *middle > options_.search.wide_prior_px;
+}
+
+bool CollaborativeSlam::may_use_wearer(Stamp stamp) const {
+  if (options_.mode == Mode::kCollaborative || !scale_stamp_)
+    return options_.mode == Mode::kCollaborative || known_points_.empty();
+  return to_seconds(stamp - *scale_stamp_) < options_.start.overlap_s;
+}
+
+std::optional<StereoView> CollaborativeSlam::wearer_view(const FrameBundle& bundle,
+                                                         FrameEstimate& estimate) const {
+  estimate.pseudo_stereo_outcome =
+      bundle.wearer_pose_missing ? PseudoStereoOutcome::kNoWearerPose : PseudoStereoOutcome::kNoWearerImage;
+  if (!bundle.image || !bundle.wearer || !may_use_wearer(bundle.stamp)) return std::nullopt;
+  const auto T_SF = wearer_pose(*bundle.wearer, filter_.T_WS());
+  estimate.pseudo_stereo_outcome = PseudoStereoOutcome::kNoWearerPose;
+  if (!T_SF) return std::nullopt;
+  estimate.overlap =
+      overlap::predict_overlap(filter_.camera_model(), bundle.wearer->camera, *T_SF, options_.overlap);
+  estimate.pseudo_stereo_outcome = PseudoStereoOutcome::kNoOverlap;
+  if (!estimate.overlap.predicted) return std::nullopt;
+  StereoView view;
+  view.image_F = bundle.wearer->image.get();
+  view.rig = {filter_.camera_model(), bundle.wearer->camera, *T_SF, options_.search.pixel_sigma,
+              options_.pseudo_stereo.wearer_pixel_sigma};
+  view.overlap = estimate.overlap;
+  return view;
+}
+
+std::vector<ekf::Measurement> CollaborativeSlam::validate(const std::vector<ekf::Measurement>& measurements,
+                                                          FrameEstimate& estimate) {
+  const auto refuse = [&](const ekf::Measurement& measurement, int SearchCounts::*pixels,
+                          int PseudoStereoCounts::*points) {
+    ++(estimate.search.*pixels);
+    if (measurement.kind == ekf::MeasurementKind::kPoint) ++(estimate.pseudo_stereo.*points);
+    if (LandmarkTrack* track = tracks_.find(measurement.landmark)) ++track->failures;
+  };
+  const ekf::ChiSquaredLimits limits(options_.search.gate_probability, 3);
+  std::vector<ekf::Measurement> gated;
+  for (const ekf::LinearisedMeasurement& linearised : filter_.innovation(measurements).measurements()) {
+    const ekf::Measurement& measurement = measurements[static_cast<std::size_t>(linearised.measurement)];
+    if (linearised.nis <= limits(linearised.rows)) {
+      gated.push_back(measurement);
+    } else {
+      refuse(measurement, &SearchCounts::chi_squared, &PseudoStereoCounts::chi_squared);
+    }
+  }
+  const ekf::JointInnovation& joint = filter_.innovation(gated);
+  const ekf::Hypothesis& hypothesis = compatibility_.test(joint);
+  std::vector<ekf::Measurement> accepted;
+  for (std::size_t i = 0; i < hypothesis.keep.size(); ++i) {
+    const ekf::Measurement& measurement =
+        gated[static_cast<std::size_t>(joint.measurements()[i].measurement)];
+    if (hypothesis.keep[i] != 0) {
+      accepted.push_back(measurement);
+    } else {
+      refuse(measurement, &SearchCounts::joint_compatibility, &PseudoStereoCounts::joint_compatibility);
+    }
+  }
+  return accepted;
+}
+
+void CollaborativeSlam::note_fused(const std::vector<Sighting>& sightings, const ekf::UpdateReport& report,
+                                   FrameEstimate& estimate) {
+  for (LandmarkTrack& track : tracks_.all())
+    track.found = false;
+  double squared_px = 0.0;
+  for (const ekf::MeasurementReport& measurement : report.measurements) {
+    LandmarkTrack* track = tracks_.find(measurement.landmark);
+    if (track == nullptr || measurement.outcome != ekf::Outcome::kFused) continue;
+    track->found = true;
+    ++track->observations;
+    if (measurement.kind == ekf::MeasurementKind::kPoint) {
+      ++estimate.pseudo_stereo.fused;
+    } else {
+      ++estimate.search.fused_pixels;
+      squared_px += measurement.innovation.head<2>().squaredNorm();
+    }
+  }
+  for (const Sighting& sighting : sightings) {
+    LandmarkTrack* track = tracks_.find(sighting.landmark);
+    if (track != nullptr && track->found) track->pixel = sighting.pixel;
+  }
+  if (estimate.search.fused_pixels > 0) {
+    estimate.innovation_rms_px = std::sqrt(squared_px / estimate.search.fused_pixels);
+  }
+  if (report.rows > 0) estimate.nis_per_dof = report.nis / report.rows;
+}
+
+void CollaborativeSlam::renew_map(const GrayImage& image, const std::optional<StereoView>& view,
+                                  FrameEstimate& estimate, Stopwatch& watch) {
+  if (tracking_ == Tracking::kWaitingForScale) {
+    begin(image, view, estimate);
+    watch.lap(estimate.timings.pseudo_stereo);
+    return;
+  }
+  estimate.landmarks_removed = maintenance_.tidy(filter_, tracks_);
+  renew_references(image);
+  watch.lap(estimate.timings.map);
+  if (view) {
+    const int places = maintenance_.make_room(filter_, tracks_, options_.pseudo_stereo.max_new_landmarks);
+    estimate.landmarks_added += add_pseudo_stereo(image, *view, places, estimate.pseudo_stereo);
+  }
+  watch.lap(estimate.timings.pseudo_stereo);
+  candidates_.track(tracker_, filter_, usual_depth(search_.predict(filter_, tracks_)));
+  maintenance_.make_room(filter_, tracks_, candidates_.size());
+  estimate.landmarks_added +=
+      candidates_.initialise(filter_, tracks_, options_.map.max_landmarks, options_.map.min_distance_px);
+  const int in_view = static_cast<int>(tracks_.found_pixels().size());
+  candidates_.detect(image, filter_, corners_, tracks_.found_pixels(), options_.map.max_landmarks - in_view);
+  watch.lap(estimate.timings.map);
+}
+
+void CollaborativeSlam::begin(const GrayImage& image, const std::optional<StereoView>& view,
+                              FrameEstimate& estimate) {
+  if (!known_points_.empty() && start_from_known_points(known_points_, image, options_, filter_, tracks_)) {
+    tracking_ = Tracking::kTracking;
+  } else if (view) {
+    estimate.landmarks_added =
+        add_pseudo_stereo(image, *view, options_.start.first_landmarks, estimate.pseudo_stereo);
+    if (filter_.landmark_count() >= options_.start.min_landmarks) {
+      tracking_ = Tracking::kTracking;
+    } else {
+      for (const LandmarkTrack& track : tracks_.all())
+        filter_.remove_landmark(track.id);
+      tracks_.clear();
+    }
+  }
+  if (tracking_ == Tracking::kTracking) scale_stamp_ = estimate.stamp;
+}
+
+std::vector<std::optional<ekf::LandmarkId>> CollaborativeSlam::start_landmarks(
+    const std::vector<ekf::StereoMatch>& matches, const ekf::StereoRig& rig) {
+  if (options_.pseudo_stereo.correlated_starts) return filter_.add_pseudo_stereo_landmarks(matches, rig);
+  std::vector<std::optional<ekf::LandmarkId>> ids;
+  for (const ekf::StereoMatch& match : matches)
+    ids.push_back(filter_.add_pseudo_stereo_landmark(match, rig));
+  return ids;
+}
+
+int CollaborativeSlam::add_pseudo_stereo(const GrayImage& image, const StereoView& view, int places,
+                                         PseudoStereoCounts& counts) {
+  const auto matches = pseudo_stereo_.find_new(view, image, tracks_.found_pixels(), places, counts);
+  const auto ids = start_landmarks(matches, view.rig);
+  int added = 0;
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    if (!ids[i]) continue;
+    LandmarkTrack track;
+    track.id = *ids[i];
+    track.reference = vision::cut_reference(image, matches[i].pixel_S);
+    track.T_WS_reference = filter_.camera().T_WS();
+    track.pixel = matches[i].pixel_S;
+    track.found = true;
+    tracks_.add(std::move(track));
+    ++added;
+  }
+  counts.initialised += added;
+  return added;
+}
+
+void CollaborativeSlam::renew_references(const GrayImage& image) {
+  const Pose T_WS = filter_.camera().T_WS();
+  for (LandmarkTrack& track : tracks_.all()) {
+    const auto landmark = track.found ? filter_.landmark(track.id) : std::nullopt;
+    if (!landmark) continue;
+    const auto A = vision::predicted_warp({filter_.camera_model(), track.T_WS_reference},
+                                          {filter_.camera_model(), T_WS}, finite_point(*landmark));
+    constexpr double kMaxMagnification = 1.7;  // beyond it the old patch has no detail left to correlate
+    if (A && A->determinant() < kMaxMagnification * kMaxMagnification) continue;
+    track.reference = vision::cut_reference(image, track.pixel);
+    track.T_WS_reference = T_WS;
+  }
+}
+
+void CollaborativeSlam::describe(FrameEstimate& estimate) {
+  const int fused =
+      estimate.search.fused_pixels + estimate.pseudo_stereo.fused + estimate.pseudo_stereo.initialised;
+  frames_without_match_ = fused > 0 ? 0 : frames_without_match_ + 1;
+  constexpr int kLostAfter = 5;
+  if (tracking_ != Tracking::kWaitingForScale) {
+    tracking_ = frames_without_match_ > kLostAfter ? Tracking::kLost : Tracking::kTracking;
+  }
+  estimate.tracking = tracking_;
+  estimate.T_WS = filter_.T_WS();
+  const ekf::CameraState camera = filter_.camera();
+  estimate.v_W = camera.v_W;
+  estimate.omega_S = camera.omega_S;
+  estimate.twist_covariance = filter_.twist_covariance();
+  estimate.landmarks = filter_.landmark_count();
+  estimate.candidates = candidates_.size();
+  if (estimate.overlap.predicted) estimate.pseudo_stereo_outcome = outcome_of(estimate.pseudo_stereo);
+}
+
+}  // namespace cosight::slam

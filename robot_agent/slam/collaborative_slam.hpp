@@ -1,0 +1,83 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "robot_agent/ekf/filter.hpp"
+#include "robot_agent/ekf/joint_compatibility.hpp"
+#include "robot_agent/frame_bundle.hpp"
+#include "robot_agent/frame_estimate.hpp"
+#include "robot_agent/map/map_archive.hpp"
+#include "robot_agent/slam/candidate_pool.hpp"
+#include "robot_agent/slam/known_start.hpp"
+#include "robot_agent/slam/landmark_search.hpp"
+#include "robot_agent/slam/landmark_tracks.hpp"
+#include "robot_agent/slam/map_maintenance.hpp"
+#include "robot_agent/slam/motion_prior.hpp"
+#include "robot_agent/slam/options.hpp"
+#include "robot_agent/slam/pseudo_stereo.hpp"
+#include "robot_agent/slam/stopwatch.hpp"
+#include "robot_agent/vision/corner_detector.hpp"
+#include "robot_agent/vision/point_tracker.hpp"
+
+namespace cosight::slam {
+
+/// Collaborative DI-D EKF SLAM (the paper's Figure 4): a pure function of the sequence of bundles. The same
+/// bundles give the same estimates.
+class CollaborativeSlam {
+ public:
+  /// Time for the stage timings [ns]; never enters an estimate. None: the timings stay zero.
+  using WallClock = std::function<Stamp()>;
+
+  /// `known_points`: surveyed points in the first image, or none; then the first overlap gives the scale.
+  CollaborativeSlam(const CameraModel& camera_S, const SlamOptions& options,
+                    std::vector<KnownPoint> known_points = {}, WallClock clock = {});
+
+  FrameEstimate process(const FrameBundle& bundle);
+
+  const ekf::Filter& filter() const { return filter_; }
+  /// Landmarks of the filter and those that left it.
+  std::vector<MapPoint> map() const { return maintenance_.map(); }
+
+ private:
+  bool advance_to(const FrameBundle& bundle);
+  bool is_wide(const std::vector<ekf::PixelPrediction>& predictions) const;
+  bool may_use_wearer(Stamp stamp) const;
+  std::optional<StereoView> wearer_view(const FrameBundle& bundle, FrameEstimate& estimate) const;
+  std::vector<ekf::Measurement> validate(const std::vector<ekf::Measurement>& measurements,
+                                         FrameEstimate& estimate);
+  void note_fused(const std::vector<Sighting>& sightings, const ekf::UpdateReport& report,
+                  FrameEstimate& estimate);
+  void renew_map(const GrayImage& image, const std::optional<StereoView>& view, FrameEstimate& estimate,
+                 Stopwatch& watch);
+  void begin(const GrayImage& image, const std::optional<StereoView>& view, FrameEstimate& estimate);
+  std::vector<std::optional<ekf::LandmarkId>> start_landmarks(const std::vector<ekf::StereoMatch>& matches,
+                                                              const ekf::StereoRig& rig);
+  int add_pseudo_stereo(const GrayImage& image, const StereoView& view, int places,
+                        PseudoStereoCounts& counts);
+  void renew_references(const GrayImage& image);
+  void describe(FrameEstimate& estimate);
+
+  SlamOptions options_;
+  std::vector<KnownPoint> known_points_;
+  WallClock clock_;
+
+  ekf::Filter filter_;
+  ekf::JointCompatibility compatibility_;
+  LandmarkTracks tracks_;
+  LandmarkSearch search_;
+  CandidatePool candidates_;
+  PseudoStereo pseudo_stereo_;
+  MapMaintenance maintenance_;
+  MotionPrior motion_prior_;
+  vision::PointTracker tracker_;
+  vision::CornerDetector corners_;
+
+  Tracking tracking_ = Tracking::kWaitingForScale;
+  std::optional<Stamp> last_stamp_;
+  std::optional<Stamp> scale_stamp_;  ///< when tracking began
+  int frames_without_match_ = 0;
+};
+
+}  // namespace cosight::slam

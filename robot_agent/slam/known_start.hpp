@@ -1,0 +1,21 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "robot_agent/ekf/filter.hpp"
+#include "robot_agent/slam/landmark_tracks.hpp"
+#include "robot_agent/slam/options.hpp"
+#include "shared/dataset/known_point.hpp"
+#include "shared/image/gray_image.hpp"
+
+namespace cosight::slam {
+
+/// Metric start from surveyed points (equations section 8): the pose is that of their pixels in the first
+/// image (PnP), and they enter the map with small covariance. A point without a pixel is expected where the
+/// configured start pose shows it. False when fewer than four are in view or no pose fits them; nothing has
+/// changed then.
+bool start_from_known_points(const std::vector<KnownPoint>& points, const GrayImage& image,
+                             const SlamOptions& options, ekf::Filter& filter, LandmarkTracks& tracks);
+
+}  // namespace cosight::slam

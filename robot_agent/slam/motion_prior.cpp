@@ -1,0 +1,44 @@
+#include "robot_agent/slam/motion_prior.hpp"
+
+#include <vector>
+
+#include "robot_agent/slam/landmark_search.hpp"
+#include "robot_agent/vision/known_points.hpp"
+#include "shared/geometry/rotation.hpp"
+
+namespace cosight::slam {
+
+std::optional<Pose> MotionPrior::find(const vision::PointTracker& tracker, const ekf::Filter& filter,
+                                      const LandmarkTracks& tracks) const {
+  std::vector<vision::TrackStart> starts;
+  std::vector<Eigen::Vector3d> candidates_W;
+  for (const LandmarkTrack& track : tracks.all()) {
+    const auto landmark = track.found ? filter.landmark(track.id) : std::nullopt;
+    if (!landmark) continue;
+    starts.push_back({track.pixel, track.pixel, nullptr});
+    candidates_W.push_back(finite_point(*landmark));
+  }
+  const std::vector<vision::Track> found = tracker.track(starts);
+  std::vector<vision::KnownPoint> points;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (found[i]) points.push_back({candidates_W[i], found[i].pixel});
+  }
+  vision::KnownPointsOptions options;
+  options.seed = seed_;
+  options.min_inliers = 6;
+  const auto pose = vision::estimate_pose_ransac(filter.camera_model(), points, options);
+  if (!pose || 2 * pose->inlier_count < static_cast<int>(points.size())) return std::nullopt;
+  return pose->T_WC.T;
+}
+
+ekf::CameraState moved(const ekf::CameraState& before, const Pose& T_WS, double dt) {
+  ekf::CameraState now;
+  now.r_WS = T_WS.p;
+  now.q_WS = T_WS.q;
+  if (now.q_WS.dot(before.q_WS) < 0.0) now.q_WS.coeffs() *= -1.0;  // the covariance is that of this sign
+  now.v_W = (T_WS.p - before.r_WS) / dt;
+  now.omega_S = quaternion_log(before.q_WS.conjugate() * T_WS.q) / dt;
+  return now;
+}
+
+}  // namespace cosight::slam

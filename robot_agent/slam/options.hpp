@@ -1,0 +1,118 @@
+#pragma once
+
+#include <cstdint>
+
+#include "robot_agent/overlap/predict_overlap.hpp"
+#include "shared/geometry/pose.hpp"
+
+namespace cosight::slam {
+
+/// Which camera's measurements the filter may use.
+enum class Mode {
+  kCollaborative,  ///< Cs and Cf
+  kMono,           ///< Cs alone once the scale is set (`StartOptions::overlap_s`)
+};
+
+/// Where a candidate's first camera pose is kept until it has parallax (equations section 4).
+enum class FirstPose {
+  kStored,  ///< beside the filter, as if independent of the present pose (C8)
+  kCloned,  ///< as a block of the state: consistent, seven states a keyframe
+};
+
+/// How new points are found in Cf. Known landmarks are found by ZNCC inside their epipolar band in any case.
+enum class Matching {
+  kBand,  ///< corners of Cs by ZNCC along their epipolar band: the cheapest, for views that are not too
+          ///< different
+  kOrb,
+  kSift,
+  kSurf,
+};
+
+/// Constant velocity with unknown accelerations. Larger when the camera moves abruptly, smaller when it
+/// drifts.
+struct MotionOptions {
+  double sigma_acceleration = 3.0;            ///< [m/s^2]
+  double sigma_angular_acceleration = 3.0;    ///< [rad/s^2]
+  double start_sigma_velocity = 1.0;          ///< before anything was seen to move [m/s]
+  double start_sigma_angular_velocity = 1.0;  ///< [rad/s]
+};
+
+/// Active search for landmarks in Cs.
+struct SearchOptions {
+  double pixel_sigma = 0.5;        ///< noise of a found pixel, one axis [px]
+  double gate_probability = 0.99;  ///< of the ellipse and of HOHCT's chi-squared limit
+  double min_correlation = 0.75;   ///< ZNCC of a match
+  double max_ambiguity = 0.95;     ///< second best peak / best; above it the place is ambiguous
+  int max_radius = 40;             ///< an ellipse is cut to this half-width [px]
+  double wide_prior_px = 12.0;  ///< predicted sigma above which the motion is looked for in the images first
+  int max_iterations = 1;       ///< of one update (Gauss-Newton); more where the prior is wide
+  int max_measured = 60;        ///< landmarks measured a frame, the most informative first
+};
+
+/// Depth from the wearer's camera.
+struct PseudoStereoOptions {
+  Matching matching = Matching::kBand;
+  int max_features = 500;                  ///< described in each image
+  double max_ratio = 0.85;                 ///< best / second best descriptor distance
+  double min_correlation = 0.7;            ///< ZNCC between the two views
+  double wearer_pixel_sigma = 0.5;         ///< noise of a pixel in Cf, one axis [px]
+  double min_parallax_deg = 1.0;           ///< below it there is no depth in the pair
+  double max_relative_depth_sigma = 0.25;  ///< sigma_rho / rho above which a pair says too little
+  double near = 0.3;                       ///< nothing nearer is looked for [m]
+  double band_sigmas = 3.0;                ///< half-width of the epipolar band in sigmas of the pose
+  int max_band_radius = 80;                ///< the band is cut to this half-width around the prediction [px]
+  /// The points of a frame share the error of Cf's pose: measured with it (off-diagonal blocks of R), or as
+  /// if independent (the paper).
+  bool correlated_updates = true;
+  /// The same for the landmarks that start in one frame. Off: a scale that hangs on one uncertain pose alone
+  /// is the direction in which an EKF drifts (docs/decisions/0004).
+  bool correlated_starts = false;
+  int max_new_landmarks = 12;  ///< started from one frame
+};
+
+/// Features that wait for parallax.
+struct CandidateOptions {
+  int max_candidates = 40;
+  double min_parallax_deg = 1.5;  ///< alpha_min
+  double min_baseline_m = 0.03;   ///< b_min
+  double max_relative_depth_sigma = 0.5;
+  int max_age_frames = 60;  ///< without parallax after so many frames it gives its place to another
+  FirstPose first_pose = FirstPose::kCloned;
+  int keyframe_interval = 5;  ///< frames between detections, and so between cloned poses
+};
+
+/// What the filter keeps.
+struct MapOptions {
+  int max_landmarks = 60;
+  int min_distance_px = 25;       ///< between two landmarks in the image: spread
+  int forget_after_frames = 15;   ///< out of view for so long, a landmark leaves the filter for the map
+  double max_failed_ratio = 0.5;  ///< failed / attempted searches above which a landmark goes
+  int min_attempts = 4;           ///< searches before that ratio counts
+};
+
+/// How the estimate gets its origin and its scale.
+struct StartOptions {
+  /// Where the camera starts. The default looks along x of W, level.
+  Pose T_WS{Eigen::Quaterniond(0.5, -0.5, 0.5, -0.5), Eigen::Vector3d::Zero()};
+  double sigma_position = 1e-3;     ///< of that pose [m]
+  double sigma_rotation = 1e-3;     ///< [rad]
+  int first_landmarks = 40;         ///< pseudo-stereo landmarks wanted from the first overlap
+  int min_landmarks = 8;            ///< pseudo-stereo landmarks that make a first overlap good enough
+  double overlap_s = 0.35;          ///< mono: Cf may set the scale so long, and is not used again
+  double known_point_sigma = 1e-3;  ///< of surveyed points [m]
+  double known_pixel_sigma = 1.0;   ///< of their pixels in the first frame [px]
+};
+
+struct SlamOptions {
+  Mode mode = Mode::kCollaborative;
+  std::uint32_t seed = 1;  ///< of every random choice (RANSAC)
+  MotionOptions motion;
+  SearchOptions search;
+  PseudoStereoOptions pseudo_stereo;
+  CandidateOptions candidates;
+  MapOptions map;
+  StartOptions start;
+  overlap::OverlapOptions overlap;
+};
+
+}  // namespace cosight::slam
