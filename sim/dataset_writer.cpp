@@ -23,6 +23,16 @@ const char* name_of(Distortion distortion) {
   return distortion == Distortion::kRadtan ? "radtan" : "none";
 }
 
+/// A key of two spaces' depth with a 4x4 matrix.
+void write_transform(std::ostream& s, const std::string& key, const std::string& meaning, const Pose& T) {
+  const Eigen::Matrix3d R = T.q.toRotationMatrix();
+  s << "  " << key << ":  # " << meaning << '\n';
+  for (Eigen::Index row = 0; row < 3; ++row) {
+    s << "    - [" << R(row, 0) << ", " << R(row, 1) << ", " << R(row, 2) << ", " << T.p[row] << "]\n";
+  }
+  s << "    - [0, 0, 0, 1]\n";
+}
+
 /// Seconds with nine decimals, from the integer: a double holds no nanoseconds of this century.
 void write_seconds(std::ostream& stream, Stamp stamp) {
   stream << stamp / kNanosecondsPerSecond << '.' << std::setw(9) << std::setfill('0')
@@ -53,13 +63,7 @@ void write_calibration(const std::filesystem::path& file, const CameraModel& len
     s << "  distortion_coeffs: [" << lens.coefficients[0] << ", " << lens.coefficients[1] << ", "
       << lens.coefficients[2] << ", " << lens.coefficients[3] << "]\n";
   }
-  const Eigen::Matrix3d R_BC = T_BC.q.toRotationMatrix();
-  s << "  T_BC:  # the optical frame in the body: robot B, or the wearer's head H\n";
-  for (Eigen::Index row = 0; row < 3; ++row) {
-    s << "    - [" << R_BC(row, 0) << ", " << R_BC(row, 1) << ", " << R_BC(row, 2) << ", " << T_BC.p[row]
-      << "]\n";
-  }
-  s << "    - [0, 0, 0, 1]\n";
+  write_transform(s, "T_BC", "the optical frame in the body: robot B, or the wearer's head H", T_BC);
   out.close();
 }
 
@@ -129,7 +133,76 @@ void write_known_points(const std::filesystem::path& file, const std::vector<Kno
   s << "px,py,pz,u,v\n" << std::setprecision(9);
   for (const KnownPoint& point : points) {
     write_vector(s, point.p_W);
-    s << ',' << point.pixel.x() << ',' << point.pixel.y() << '\n';
+    s << ',' << point.pixel->x() << ',' << point.pixel->y() << '\n';
+  }
+  out.close();
+}
+
+void write_laser(const std::filesystem::path& file, const std::vector<LaserScan>& scans) {
+  TextFile out(file);
+  std::ofstream& s = out.stream();
+  s << "stamp_ns";
+  for (std::size_t k = 0; !scans.empty() && k < scans.front().ranges.size(); ++k)
+    s << ",range_" << k << "_m";
+  s << '\n' << std::fixed << std::setprecision(4);
+  for (const LaserScan& scan : scans) {
+    s << scan.stamp;
+    for (const float range : scan.ranges)
+      s << ',' << range;
+    s << '\n';
+  }
+  out.close();
+}
+
+void write_laser_geometry(const std::filesystem::path& file,
+                          const std::vector<std::pair<std::string, LaserPlan>>& lasers) {
+  TextFile out(file);
+  std::ofstream& s = exactly(out);
+  for (const auto& [name, plan] : lasers) {
+    s << name << ":\n  points: " << plan.points << "\n  angle_min_rad: " << plan.angle_of(0)
+      << "\n  angle_increment_rad: " << plan.angle_of(1) - plan.angle_of(0)
+      << "\n  range_min_m: " << plan.range_min << "\n  range_max_m: " << plan.range_max
+      << "\n  range_sigma_m: " << plan.sigma << '\n';
+    write_transform(s, "T_BL", "the laser (x the middle of its arc, z up) in the robot", plan.T_BL);
+  }
+  out.close();
+}
+
+void write_imu(const std::filesystem::path& file, const std::vector<ImuSample>& samples) {
+  TextFile out(file);
+  std::ofstream& s = out.stream();
+  s << "stamp_ns,wx,wy,wz,ax,ay,az\n" << std::setprecision(9);
+  for (const ImuSample& sample : samples) {
+    s << sample.stamp << ',';
+    write_vector(s, sample.angular_velocity);
+    s << ',';
+    write_vector(s, sample.specific_force);
+    s << '\n';
+  }
+  out.close();
+}
+
+void write_imu_biases(const std::filesystem::path& file, const std::vector<ImuSample>& samples) {
+  TextFile out(file);
+  std::ofstream& s = out.stream();
+  s << "stamp_ns,bwx,bwy,bwz,bax,bay,baz\n" << std::setprecision(9);
+  for (const ImuSample& sample : samples) {
+    s << sample.stamp << ',';
+    write_vector(s, sample.gyro_bias);
+    s << ',';
+    write_vector(s, sample.acceleration_bias);
+    s << '\n';
+  }
+  out.close();
+}
+
+void write_odometry(const std::filesystem::path& file, const std::vector<OdometryRow>& rows) {
+  TextFile out(file);
+  std::ofstream& s = out.stream();
+  s << "stamp_ns,x_m,y_m,yaw_rad,speed_mps,turn_rate_radps\n" << std::setprecision(9);
+  for (const OdometryRow& row : rows) {
+    s << row.stamp << ',' << row.x << ',' << row.y << ',' << row.yaw << ',' << row.speed << ','
+      << row.turn_rate << '\n';
   }
   out.close();
 }

@@ -4,8 +4,10 @@
 #include <fstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "shared/dataset/known_point.hpp"
 #include "shared/dataset/sample.hpp"
 #include "shared/geometry/pose.hpp"
 #include "sim/scenario.hpp"
@@ -22,12 +24,6 @@ class DatasetError : public std::runtime_error {
 struct TimedPose {
   Stamp stamp = 0;
   Pose T;
-};
-
-/// A point whose place in W is surveyed, and the pixel that shows it in the first frame of Cs.
-struct KnownPoint {
-  Eigen::Vector3d p_W;
-  Eigen::Vector2d pixel;
 };
 
 /// How much the cameras see of each other's places at one frame.
@@ -63,6 +59,12 @@ void write_tum(const std::filesystem::path& file, const std::vector<TimedPose>& 
 void write_ahrs(const std::filesystem::path& file, const std::vector<AhrsSample>& samples);
 void write_wearer_poses(const std::filesystem::path& file, const std::vector<WearerPoseSample>& samples);
 void write_known_points(const std::filesystem::path& file, const std::vector<KnownPoint>& points);
+void write_laser(const std::filesystem::path& file, const std::vector<LaserScan>& scans);
+void write_laser_geometry(const std::filesystem::path& file,
+                          const std::vector<std::pair<std::string, LaserPlan>>& lasers);
+void write_imu(const std::filesystem::path& file, const std::vector<ImuSample>& samples);
+void write_imu_biases(const std::filesystem::path& file, const std::vector<ImuSample>& samples);
+void write_odometry(const std::filesystem::path& file, const std::vector<OdometryRow>& rows);
 void write_overlap(const std::filesystem::path& file, const std::vector<OverlapTruth>& overlap);
 
 }  // namespace cosight::sim

@@ -41,7 +41,7 @@ Eigen::Vector2d read_point(const ConfigNode& node, std::string_view key) {
   return {flat[0], flat[1]};
 }
 
-/// `[[time, value], …]`, or one number that holds all the time.
+/// `[[time, value], …]`
 std::vector<Keyframe> read_keyframes(const ConfigNode& node, std::string_view key, double otherwise,
                                      double unit) {
   const std::vector<double> flat = node.numbers(key, {0.0, otherwise});
@@ -206,6 +206,56 @@ AhrsPlan read_ahrs(const ConfigNode& node) {
   return ahrs;
 }
 
+GazePlan read_gaze(const ConfigNode& node) {
+  GazePlan gaze;
+  gaze.ratio = node.number("ratio", gaze.ratio, 0.0, 1.0);
+  gaze.intervals = node.integer("intervals", gaze.intervals, 1, 1000);
+  gaze.aside = kDegree * node.number("aside_deg", gaze.aside / kDegree, 0.0, 180.0);
+  gaze.turn_time = node.number("turn_s", gaze.turn_time, 0.05, 10.0);
+  return gaze;
+}
+
+LaserPlan read_laser(const ConfigNode& node, const Eigen::Vector3d& otherwise_at, double otherwise_yaw) {
+  LaserPlan laser;
+  laser.timing = read_timing(node, laser.timing);
+  laser.points = node.integer("points", laser.points, 2, 10000);
+  laser.arc = kDegree * node.number("arc_deg", laser.arc / kDegree, 1.0, 360.0);
+  laser.range_min = node.number("range_min_m", laser.range_min, 0.0, 100.0);
+  laser.range_max = node.number("range_max_m", laser.range_max, laser.range_min, 500.0);
+  laser.sigma = node.number("sigma_m", laser.sigma, 0.0, 1.0);
+  laser.bias = node.number("bias_m", laser.bias, -1.0, 1.0);
+  laser.miss = node.number("miss", laser.miss, 0.0, 1.0);
+  const double yaw = kDegree * node.number("yaw_deg", otherwise_yaw);
+  laser.T_BL = {Eigen::Quaterniond(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ())),
+                node.vector3("at_m", otherwise_at)};
+  return laser;
+}
+
+ImuPlan read_imu(const ConfigNode& node) {
+  ImuPlan imu;
+  imu.timing = read_timing(node, imu.timing);
+  imu.T_BI.p = node.vector3("at_m", imu.T_BI.p);
+  imu.gyro_density = node.number("gyro_density", imu.gyro_density, 0.0, 1.0);
+  imu.gyro_bias = node.number("gyro_bias_radps", imu.gyro_bias, 0.0, 1.0);
+  imu.gyro_bias_wander = node.number("gyro_bias_wander_radps", imu.gyro_bias_wander, 0.0, 1.0);
+  imu.acceleration_density = node.number("acceleration_density", imu.acceleration_density, 0.0, 1.0);
+  imu.acceleration_bias = node.number("acceleration_bias_mps2", imu.acceleration_bias, 0.0, 10.0);
+  imu.acceleration_bias_wander =
+      node.number("acceleration_bias_wander_mps2", imu.acceleration_bias_wander, 0.0, 10.0);
+  imu.wander_time = node.number("wander_time_s", imu.wander_time, 0.1, 1e5);
+  return imu;
+}
+
+OdometryPlan read_odometry(const ConfigNode& node) {
+  OdometryPlan odometry;
+  odometry.timing = read_timing(node, odometry.timing);
+  odometry.scale_sigma = node.number("scale_sigma", odometry.scale_sigma, 0.0, 1.0);
+  odometry.turn_scale_sigma = node.number("turn_scale_sigma", odometry.turn_scale_sigma, 0.0, 1.0);
+  odometry.slip = node.number("slip", odometry.slip, 0.0, 1.0);
+  odometry.turn_slip = node.number("turn_slip", odometry.turn_slip, 0.0, 1.0);
+  return odometry;
+}
+
 TrackerPlan read_tracker(const ConfigNode& node) {
   TrackerPlan tracker;
   tracker.position_sigma = node.vector3("position_sigma_m", tracker.position_sigma, 0.0, 1.0);
@@ -216,8 +266,7 @@ TrackerPlan read_tracker(const ConfigNode& node) {
 
 }  // namespace
 
-Scenario read_scenario(const ConfigFile& file) {
-  const ConfigNode& root = file.root();
+Scenario read_scenario(const ConfigNode& root) {
   Scenario scenario;
   scenario.name = root.text("name", scenario.name);
   scenario.duration = root.number("duration_s", scenario.duration, 0.0, 36000.0);
@@ -228,17 +277,19 @@ Scenario read_scenario(const ConfigFile& file) {
   scenario.shaking.height = robot.number("shaking_height_m", scenario.shaking.height, 0.0, 0.1);
   scenario.shaking.angle = kDegree * robot.number("shaking_deg", scenario.shaking.angle / kDegree, 0.0, 10.0);
   scenario.robot_camera = read_camera(robot.section("camera"), scenario.robot_camera, {0.1, 0.0, 0.85});
+  scenario.front_laser = read_laser(robot.section("front_laser"), {0.2, 0.0, 0.3}, 0.0);
+  scenario.rear_laser = read_laser(robot.section("rear_laser"), {-0.3, 0.0, 0.3}, 180.0);
+  scenario.imu = read_imu(robot.section("imu"));
+  scenario.odometry = read_odometry(robot.section("odometry"));
+  for (const ConfigNode& person : root.sections("passers_by"))
+    scenario.passers_by.push_back(read_path(person));
   const ConfigNode wearer = root.section("wearer");
+  scenario.gaze = read_gaze(wearer.section("overlap"));
   scenario.wearer = read_wearer(wearer);
   scenario.wearer_camera = read_camera(wearer.section("camera"), scenario.wearer_camera, {0.11, 0.0, 0.06});
   scenario.ahrs = read_ahrs(wearer.section("ahrs"));
   scenario.tracker = read_tracker(root.section("tracker"));
-  file.refuse_unknown_keys();
   return scenario;
-}
-
-Scenario load_scenario(const std::filesystem::path& file, const std::vector<ConfigOverride>& overrides) {
-  return read_scenario(ConfigFile::load(file, overrides));
 }
 
 }  // namespace cosight::sim

@@ -1,5 +1,7 @@
 #include "sim/simulation.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cstdio>
 #include <opencv2/imgcodecs.hpp>
 #include <string>
@@ -58,6 +60,7 @@ class Run {
   }
 
   RunReport write() {
+    fit_gaze();
     RunReport report{robot_.ticks.size(), wearer_.ticks.size(), 0, world_.duration(), 0.0, false};
     for (const Carrier* carrier : {&robot_, &wearer_}) {
       write_calibration(carrier->folder / "calibration.yaml", carrier->camera.calibration(),
@@ -110,26 +113,75 @@ class Run {
       tracked.push_back({robot_.ticks[k].stamp, track(scenario_.tracker, T_SF, options_.seed, k), true});
     }
     write_wearer_poses(robot_.folder / "wearer_pose.csv", tracked);
-    write_ahrs(wearer_.folder / "ahrs.csv",
-               simulate_ahrs(
-                   scenario_.ahrs, [this](double time) { return world_.head(time); }, world_.duration(),
-                   options_.seed));
+    const double duration = world_.duration();
+    const std::uint64_t seed = options_.seed;
+    const Motion T_WH = [this](double time) { return world_.head(time); };
+    write_ahrs(wearer_.folder / "ahrs.csv", simulate_ahrs(scenario_.ahrs, T_WH, duration, seed));
+    const Motion T_WB = [this](double time) { return world_.robot(time); };
+    write_laser(robot_.folder / "laser_front.csv",
+                simulate_laser(scenario_.front_laser, T_WB, robot_.quads_at, duration, mix_bits(seed + 1)));
+    write_laser(robot_.folder / "laser_rear.csv",
+                simulate_laser(scenario_.rear_laser, T_WB, robot_.quads_at, duration, mix_bits(seed + 2)));
+    write_laser_geometry(robot_.folder / "lasers.yaml",
+                         {{"front", scenario_.front_laser}, {"rear", scenario_.rear_laser}});
+    const std::vector<ImuSample> imu = simulate_imu(scenario_.imu, T_WB, duration, seed);
+    write_imu(robot_.folder / "imu.csv", imu);
+    write_imu_biases(folder_ / "truth/imu_bias.csv", imu);
+    write_odometry(robot_.folder / "odometry.csv",
+                   simulate_odometry(scenario_.odometry, T_WB, duration, seed));
+    write_body_truth(T_WB, T_WH);
+  }
+
+  /// Dense enough for any sensor of either body, on the true clock.
+  void write_body_truth(const Motion& T_WB, const Motion& T_WH) const {
+    std::vector<TimedPose> robot;
+    std::vector<TimedPose> head;
+    for (const Tick& tick : ticks({.rate = 100.0}, world_.duration(), RandomStream(0, "truth"))) {
+      robot.push_back({tick.stamp, T_WB(tick.time)});
+      head.push_back({tick.stamp, T_WH(tick.time)});
+    }
+    write_tum(folder_ / "truth/robot_body.tum", robot);
+    write_tum(folder_ / "truth/wearer_head.tum", head);
+  }
+
+  OverlapTruth overlap_at(const Tick& tick) const {
+    const Pose T_WS = robot_.T_WC(tick.time);
+    const Pose T_WF = wearer_.T_WC(tick.time);
+    return {tick.stamp, seen_by_both(world_.building(), robot_.camera, T_WS, wearer_.camera, T_WF),
+            seen_by_both(world_.building(), wearer_.camera, T_WF, robot_.camera, T_WS)};
+  }
+
+  static double ratio_of(const std::vector<OverlapTruth>& overlap) {
+    constexpr double kUsefulShare = 0.2;
+    const auto useful = std::count_if(overlap.begin(), overlap.end(),
+                                      [](const OverlapTruth& row) { return row.share_of_S >= kUsefulShare; });
+    return static_cast<double>(useful) / static_cast<double>(std::max<std::size_t>(1, overlap.size()));
+  }
+
+  /// Lets the wearer look aside for as long as gives the wanted overlap ratio: bisection on the share of the
+  /// time, because how soon the views part depends on where the two are.
+  void fit_gaze() {
+    if (scenario_.gaze.ratio <= 0.0) return;
+    double low = 0.0;
+    double high = 1.0;
+    for (int step = 0; step < 8; ++step) {
+      const double share = 0.5 * (low + high);
+      WearerPlan plan = scenario_.wearer;
+      plan.aside = glances(scenario_.gaze, share, world_.duration(), options_.seed);
+      world_.set_wearer(plan);
+      std::vector<OverlapTruth> overlap;
+      for (const Tick& tick : robot_.ticks)
+        overlap.push_back(overlap_at(tick));
+      (ratio_of(overlap) < scenario_.gaze.ratio ? low : high) = share;
+    }
   }
 
   double write_overlap_truth() const {
-    constexpr double kUsefulShare = 0.2;
     std::vector<OverlapTruth> overlap;
-    std::size_t useful = 0;
-    for (const Tick& tick : robot_.ticks) {
-      const Pose T_WS = robot_.T_WC(tick.time);
-      const Pose T_WF = wearer_.T_WC(tick.time);
-      overlap.push_back({tick.stamp,
-                         seen_by_both(world_.building(), robot_.camera, T_WS, wearer_.camera, T_WF),
-                         seen_by_both(world_.building(), wearer_.camera, T_WF, robot_.camera, T_WS)});
-      useful += overlap.back().share_of_S >= kUsefulShare ? 1 : 0;
-    }
+    for (const Tick& tick : robot_.ticks)
+      overlap.push_back(overlap_at(tick));
     write_overlap(folder_ / "truth/overlap.csv", overlap);
-    return static_cast<double>(useful) / static_cast<double>(std::max<std::size_t>(1, overlap.size()));
+    return ratio_of(overlap);
   }
 
   std::size_t write_survey() const {

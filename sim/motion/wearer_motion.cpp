@@ -43,7 +43,7 @@ Pose WearerMotion::head(double time) const {
   const double step = gait(time);
   const Pose T_WP = feet(time);
   const double wander = 0.6 * std::sin(0.9 * time + phase_) + 0.4 * std::sin(2.3 * time + 2.0 * phase_);
-  const double yaw = value_at(plan_.gaze_left, time) + plan_.glance * wander;
+  const double yaw = value_at(plan_.gaze_left, time) + value_at(plan_.aside, time) + plan_.glance * wander;
   const double pitch = -value_at(plan_.gaze_up, time) + 0.4 * plan_.glance * std::sin(1.3 * time + phase_) +
                        life * plan_.nod * std::cos(2.0 * step);
   const double roll = life * plan_.nod * std::sin(step);

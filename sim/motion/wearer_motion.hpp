@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "shared/geometry/pose.hpp"
@@ -15,6 +16,7 @@ struct WearerPlan {
   std::vector<Keyframe> left;       ///< of the robot's path [m]
   std::vector<Keyframe> gaze_left;  ///< of the path's direction [rad]
   std::vector<Keyframe> gaze_up;    ///< [rad]
+  std::vector<Keyframe> aside;      ///< added to gaze_left [rad]
   double head_height = 1.65;        ///< of H, between the ears [m]
   double step_length = 0.7;         ///< [m]
   double bob = 0.02;                ///< amplitude of the head's bob at full speed [m]
@@ -41,6 +43,7 @@ class WearerMotion {
   double liveliness(double time) const;
 
   const WearerPlan& plan() const { return plan_; }
+  void set_plan(WearerPlan plan) { plan_ = std::move(plan); }
 
  private:
   double length_at(double time) const;
