@@ -74,6 +74,7 @@ AgentInput prepare_dataset(const InputOptions& options, Agent agent) {
   if (agent == Agent::kRobot) {
     input.camera = dataset.robot_camera();
     input.known_points = dataset.known_points();
+    input.has_wearer_pose = dataset.has_wearer_pose();
     input.open = [dataset, options] { return dataset.open_robot(options.output, options.wearer_pose_noise); };
   } else {
     input.camera = dataset.wearer_camera();
@@ -145,6 +146,7 @@ AgentInput prepare_input(const InputOptions& options, Agent agent, const std::at
     output.width = input.camera.width;
     output.height = input.camera.height;
     input.live = !options.device.empty();
+    input.has_wearer_pose = agent == Agent::kRobot && !options.wearer_pose.empty();
     input.open = [options, output, agent, &stop] { return open_parts(options, output, agent, stop); };
   }
   if (!input.live) input.open();  // so that a fault shows now, not in the thread that plays

@@ -42,6 +42,7 @@ struct AgentInput {
   CameraModel camera;
   bool live = false;                     ///< a camera: comes at its own pace and can't be repeated
   std::vector<KnownPoint> known_points;  ///< of a dataset, for the robot
+  bool has_wearer_pose = false;          ///< it yields poses of the worn camera, for the robot
 };
 
 /// Throws ConfigError or DatasetError with the file's name. `stop` ends a live source; it has to outlive it.

@@ -29,6 +29,10 @@ bool CosightDataset::has_wearer() const {
   return std::filesystem::exists(folder_ / "wearer/cam0.csv");
 }
 
+bool CosightDataset::has_wearer_pose() const {
+  return std::filesystem::exists(wearer_poses());
+}
+
 CameraModel CosightDataset::robot_camera() const {
   return load_camera_model(robot_calibration());
 }
@@ -40,8 +44,7 @@ std::unique_ptr<SampleSource> CosightDataset::open_robot(FrameOutput output,
                                                          const WearerPoseNoise& noise) const {
   std::vector<std::unique_ptr<SampleSource>> sources;
   // A pose that belongs to a frame comes before it: who pairs them need not wait.
-  const auto poses = folder_ / "robot/wearer_pose.csv";
-  if (std::filesystem::exists(poses)) sources.push_back(open_wearer_pose_csv(poses, noise));
+  if (has_wearer_pose()) sources.push_back(open_wearer_pose_csv(wearer_poses(), noise));
   sources.push_back(open_frames(folder_ / "robot/cam0.csv", robot_camera(), output));
   return std::make_unique<MergedSource>(std::move(sources));
 }

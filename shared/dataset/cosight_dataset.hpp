@@ -23,6 +23,7 @@ class CosightDataset {
   explicit CosightDataset(std::filesystem::path folder);
 
   bool has_wearer() const;
+  bool has_wearer_pose() const;
 
   /// Throw ConfigError or DatasetError, each naming the file.
   CameraModel robot_camera() const;
@@ -41,6 +42,7 @@ class CosightDataset {
 
   std::filesystem::path robot_calibration() const { return folder_ / "robot/calibration.yaml"; }
   std::filesystem::path wearer_calibration() const { return folder_ / "wearer/calibration.yaml"; }
+  std::filesystem::path wearer_poses() const { return folder_ / "robot/wearer_pose.csv"; }
   std::filesystem::path robot_truth() const { return folder_ / "truth/robot_cam0.tum"; }
   std::filesystem::path wearer_truth() const { return folder_ / "truth/wearer_cam0.tum"; }
 

@@ -78,37 +78,4 @@ std::string CsvRows::header_place() const {
   return file_.string() + ":" + std::to_string(header_line_);
 }
 
-std::optional<double> parse_number(std::string_view text) {
-  double value = 0.0;
-  if (text.starts_with('+')) text.remove_prefix(1);
-  const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (fault != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
-
-std::optional<Stamp> parse_stamp_ns(std::string_view text) {
-  Stamp value = 0;
-  const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (fault != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
-
-std::optional<Stamp> parse_stamp_s(std::string_view text) {
-  const auto point = text.find('.');
-  const bool plain = text.find_first_of("eE-+") == std::string_view::npos;
-  if (plain && point != std::string_view::npos && point > 0 && text.size() > point + 1) {
-    std::string digits(text.substr(point + 1, 9));
-    digits.resize(9, '0');
-    const auto whole = parse_stamp_ns(text.substr(0, point));
-    const auto fraction = parse_stamp_ns(digits);
-    constexpr Stamp kMaxSeconds = 9'000'000'000;  // a nanosecond stamp ends in the year 2262
-    if (!whole || !fraction || *whole > kMaxSeconds || !parse_number(text)) return std::nullopt;
-    return *whole * kNanosecondsPerSecond + *fraction;
-  }
-  const auto seconds = parse_number(text);
-  constexpr double kMaxSeconds = 9e9;
-  if (!seconds || std::abs(*seconds) > kMaxSeconds) return std::nullopt;
-  return from_seconds(*seconds);
-}
-
 }  // namespace cosight

@@ -42,14 +42,4 @@ class CsvRows {
   std::vector<Row> rows_;
 };
 
-/// Nothing unless the whole text is one finite number.
-std::optional<double> parse_number(std::string_view text);
-
-/// Whole nanoseconds, or nothing.
-std::optional<Stamp> parse_stamp_ns(std::string_view text);
-
-/// Seconds with any number of decimals, to the nanosecond (a double could not say today's to the
-/// nanosecond).
-std::optional<Stamp> parse_stamp_s(std::string_view text);
-
 }  // namespace cosight

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "shared/dataset/csv_rows.hpp"
+#include "shared/dataset/number_text.hpp"
 
 namespace cosight {
 

@@ -6,6 +6,7 @@
 
 #include "shared/dataset/csv_rows.hpp"
 #include "shared/dataset/dataset_error.hpp"
+#include "shared/dataset/number_text.hpp"
 #include "shared/dataset/stamp_order.hpp"
 
 namespace cosight {
@@ -87,7 +88,8 @@ ImageList read_image_csv(const fs::path& csv) {
     const auto cells = rows.row(i);
     std::optional<Stamp> stamp;
     if (std::max(columns.stamp, columns.file) < cells.size() && !cells[columns.file].empty()) {
-      stamp = columns.in_seconds ? parse_stamp_s(cells[columns.stamp]) : parse_stamp_ns(cells[columns.stamp]);
+      stamp =
+          columns.in_seconds ? parse_seconds(cells[columns.stamp]) : parse_nanoseconds(cells[columns.stamp]);
     }
     if (!stamp) {
       ++counters.not_finite;
@@ -108,7 +110,7 @@ ImageList read_image_times(const fs::path& times, const fs::path& folder) {
   SourceCounters counters;
   std::vector<ImageEntry> entries;
   for (std::size_t i = 0; i < images.size(); ++i) {
-    if (const auto stamp = parse_stamp_s(rows.row(i)[0])) {
+    if (const auto stamp = parse_seconds(rows.row(i)[0])) {
       entries.push_back({*stamp, i, images[i]});
     } else {
       ++counters.not_finite;

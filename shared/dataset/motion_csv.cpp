@@ -6,6 +6,7 @@
 
 #include "shared/dataset/csv_rows.hpp"
 #include "shared/dataset/dataset_error.hpp"
+#include "shared/dataset/number_text.hpp"
 #include "shared/dataset/stamp_order.hpp"
 #include "shared/geometry/rotation.hpp"
 
@@ -39,7 +40,7 @@ std::optional<Eigen::Quaterniond> quaternion(std::span<const double> xyzw) {
 
 std::optional<AhrsSample> read_ahrs(Cells cells, const AhrsNoise& noise) {
   AhrsSample sample;
-  const auto stamp = parse_stamp_ns(cells[0]);
+  const auto stamp = parse_nanoseconds(cells[0]);
   std::array<double, 4> xyzw{};
   if (!stamp || !read_numbers(cells, 1, xyzw)) return std::nullopt;
   const auto q_WH = quaternion(xyzw);
@@ -81,7 +82,7 @@ bool read_covariance(Cells cells, std::size_t first, Eigen::Matrix<double, 6, 6>
 std::optional<WearerPoseSample> read_wearer_pose(Cells cells, const WearerPoseNoise& noise) {
   constexpr std::size_t kPoseCells = 8;
   WearerPoseSample sample;
-  const auto stamp = parse_stamp_ns(cells[0]);
+  const auto stamp = parse_nanoseconds(cells[0]);
   std::array<double, 3> position{};
   if (!stamp || cells.size() < kPoseCells || !read_numbers(cells, 1, position)) return std::nullopt;
   sample.stamp = *stamp;

@@ -3,7 +3,7 @@
 #include <fstream>
 
 #include "shared/evaluation/evaluation_error.hpp"
-#include "shared/evaluation/number_text.hpp"
+#include "shared/dataset/number_text.hpp"
 
 namespace cosight {
 

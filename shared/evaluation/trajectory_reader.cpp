@@ -7,7 +7,7 @@
 #include <string>
 
 #include "shared/evaluation/evaluation_error.hpp"
-#include "shared/evaluation/number_text.hpp"
+#include "shared/dataset/number_text.hpp"
 
 namespace cosight {
 namespace {

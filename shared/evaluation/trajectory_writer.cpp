@@ -4,7 +4,7 @@
 #include <iomanip>
 
 #include "shared/evaluation/evaluation_error.hpp"
-#include "shared/evaluation/number_text.hpp"
+#include "shared/dataset/number_text.hpp"
 
 namespace cosight {
 namespace {

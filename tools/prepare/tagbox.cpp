@@ -3,7 +3,7 @@
 #include <string>
 
 #include "shared/config/calibration.hpp"
-#include "shared/evaluation/number_text.hpp"
+#include "shared/dataset/number_text.hpp"
 #include "shared/evaluation/trajectory_reader.hpp"
 #include "tools/prepare/image_list.hpp"
 #include "tools/prepare/prepare_error.hpp"

@@ -1,4 +1,4 @@
-#include "shared/evaluation/number_text.hpp"
+#include "shared/dataset/number_text.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "robot_agent/slam_config.hpp"
+#include "robot_agent/slam_options.hpp"
 
 #include "shared/geometry/rotation.hpp"
 

@@ -1,4 +1,4 @@
-#include "shared/evaluation/number_text.hpp"
+#include "shared/dataset/number_text.hpp"
 
 #include <algorithm>
 #include <array>
@@ -60,6 +60,7 @@ std::vector<std::string_view> split_at_blanks(std::string_view line) {
 
 std::optional<double> parse_number(std::string_view text) {
   double value = 0.0;
+  if (text.starts_with('+')) text.remove_prefix(1);
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
   return value;

@@ -1,0 +1,53 @@
+#include <spdlog/spdlog.h>
+
+#include <cstdio>
+
+#include "robot_agent/robot_agent.hpp"
+#include "shared/program/program.hpp"
+#include "shared/program/status_line.hpp"
+
+namespace {
+
+using namespace cosight;  // NOLINT(google-build-using-namespace): a program's own file
+
+ExitCode run(const ConfigFile& config, const std::atomic<bool>& stop) {
+  const auto options = robot::read_robot_options(config.root());
+  config.refuse_unknown_keys();
+  const char* mode = options.slam.mode == slam::Mode::kMono ? "mono" : "collaborative";
+  robot::RobotAgent agent(options, {COSIGHT_VERSION, mode, config.resolved()}, stop);
+  StatusLine status;
+  const auto problems = agent.run([&](const std::string& line) {
+    if (status.is_visible()) status.show(line);
+  });
+  status.clear();
+  for (const std::string& problem : problems)
+    spdlog::warn("{}", problem);
+  std::printf("%s\n", agent.run_folder().c_str());
+  return problems.empty() ? ExitCode::kDone : ExitCode::kDataLost;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Program program(
+      {.name = "robot_agent",
+       .purpose = "Maps and locates a robot with one camera and the glances of a person's.",
+       .examples =
+           "  robot_agent --dataset build/demo/dataset\n"
+           "  robot_agent --dataset build/demo/dataset --mode mono --run-dir runs/mono\n"
+           "  robot_agent --config config/robot.yaml --device /dev/video0 --calibration camera.yaml\n"});
+  program.option("--dataset", "input.dataset", "Cosight dataset folder")
+      .option("--images", "input.images",
+              "csv, EuRoC or KITTI folder, or a plain folder with --set input.rate_hz")
+      .option("--video", "input.video", "video file")
+      .option("--device", "input.device", "V4L2 camera, such as /dev/video0")
+      .option("--calibration", "input.calibration", "the camera's yaml file")
+      .option("--mode", "slam.mode", "collaborative, or mono: without the wearer once the scale is set")
+      .option("--run-dir", "run_dir", "folder for trajectory, map, log and summary")
+      .option("--rate", "replay.rate", "times real time; 0: as fast as possible")
+      .flag("--loop", "replay.loop", "start again at the end")
+      .option("--domain", "dds.domain", "DDS domain, 0 to 232")
+      .option("--wait-for-wearer", "start.wait_for_wearer",
+              "seconds to wait for a wearer before the first frame");
+  return program.run(argc, argv, run);
+}

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "robot_agent/inbox/options.hpp"
+#include "robot_agent/slam/options.hpp"
+#include "shared/config/config.hpp"
+#include "shared/dataset/agent_input.hpp"
+#include "shared/dataset/paced_replay.hpp"
+#include "shared/transport/participant.hpp"
+
+namespace cosight::robot {
+
+/// config/robot.yaml says what each key is for and when to change it.
+struct RobotOptions {
+  std::string agent_id = "robot";
+  InputOptions input;
+  ReplayOptions replay;
+  transport::ParticipantOptions dds;
+  inbox::InboxOptions inbox;
+  slam::SlamOptions slam;
+  double wait_for_wearer = 10.0;  ///< before the first frame [s]; then the robot goes on alone
+  std::filesystem::path run_dir = "runs/robot";
+};
+
+/// Throws ConfigError.
+RobotOptions read_robot_options(const ConfigNode& root);
+
+}  // namespace cosight::robot

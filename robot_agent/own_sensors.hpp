@@ -1,0 +1,49 @@
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <thread>
+
+#include "robot_agent/inbox/inbox.hpp"
+#include "robot_agent/outbox/yaml_text.hpp"
+#include "shared/dataset/agent_input.hpp"
+#include "shared/dataset/paced_replay.hpp"
+#include "shared/transport/publisher.hpp"
+#include "shared/transport/topics.hpp"
+
+namespace cosight::robot {
+
+/// The robot's own camera and tracker, read in a thread of their own in the rhythm of their stamps: straight
+/// to the inbox, and to DDS for whoever records or watches.
+class OwnSensors {
+ public:
+  /// `inbox` and `stop` have to outlive this. Throws DatasetError or TransportError.
+  OwnSensors(const AgentInput& input, const ReplayOptions& replay, const transport::Participant& participant,
+             inbox::Inbox& inbox, const std::atomic<bool>& stop);
+  ~OwnSensors();
+  OwnSensors(const OwnSensors&) = delete;
+  OwnSensors& operator=(const OwnSensors&) = delete;
+
+  void start();
+
+  std::string description() const { return source_->description(); }
+  /// Valid once the inbox has finished.
+  SourceCounters counters() const { return source_->counters(); }
+  void report(outbox::YamlText& text) const;
+
+ private:
+  void play();
+
+  CameraModel camera_;
+  bool as_fast_as_possible_;
+  inbox::Inbox& inbox_;
+  const std::atomic<bool>& stop_;
+  SteadyClock clock_;
+  std::unique_ptr<SampleSource> source_;
+  transport::Publisher<ImageSample> frames_;
+  transport::Publisher<CameraInfoSample> calibration_;
+  transport::Publisher<WearerPoseSample> poses_;
+  std::thread thread_;
+};
+
+}  // namespace cosight::robot

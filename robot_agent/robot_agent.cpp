@@ -1,0 +1,97 @@
+#include "robot_agent/robot_agent.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+
+namespace cosight::robot {
+namespace {
+
+using std::chrono::milliseconds;
+
+inbox::InboxOptions with_camera(inbox::InboxOptions options, const CameraModel& camera) {
+  options.robot_size = {camera.width, camera.height};
+  return options;
+}
+
+Stamp steady_now() {
+  return std::chrono::steady_clock::now().time_since_epoch().count();
+}
+
+}  // namespace
+
+RobotAgent::RobotAgent(const RobotOptions& options, const outbox::RunDescription& description,
+                       const std::atomic<bool>& stop)
+    : options_(options),
+      stop_(stop),
+      input_(prepare_input(options.input, Agent::kRobot, stop)),
+      participant_(options.dds),
+      inbox_(with_camera(options.inbox, input_.camera)),
+      slam_(input_.camera, options.slam, input_.known_points, steady_now),
+      record_(outbox::RunFolder(options.run_dir), description),
+      publisher_(participant_),
+      presence_(participant_, transport::topics::kRobotHeartbeat, options.agent_id),
+      wearer_(participant_, inbox_, !input_.has_wearer_pose),
+      sensors_(input_, options.replay, participant_, inbox_, stop) {
+  spdlog::info("robot '{}' on domain {}: {}", options.agent_id, options.dds.domain, sensors_.description());
+}
+
+std::vector<std::string> RobotAgent::run(const Progress& progress) {
+  wait_for_wearer();
+  started_ = clock_.now();
+  sensors_.start();
+  while (!inbox_.finished()) {
+    constexpr Stamp kPatience = kNanosecondsPerSecond / 10;
+    if (const auto bundle = inbox_.pop(kPatience)) process(*bundle, progress);
+  }
+  return finish();
+}
+
+void RobotAgent::wait_for_wearer() {
+  const bool needs_no_wearer = options_.slam.mode == slam::Mode::kMono && !input_.known_points.empty();
+  if (needs_no_wearer || options_.wait_for_wearer <= 0.0) return;
+  spdlog::info("waiting up to {:g} s for a wearer on domain {}", options_.wait_for_wearer,
+               options_.dds.domain);
+  const milliseconds patience(static_cast<std::int64_t>(1e3 * options_.wait_for_wearer));
+  if (wearer_.wait_for_wearer(patience, stop_)) return;
+  spdlog::warn(
+      "no wearer came on domain {}; going on without one (start wearable_agent, or give both the same "
+      "--domain)",
+      options_.dds.domain);
+}
+
+void RobotAgent::process(const FrameBundle& bundle, const Progress& progress) {
+  const FrameEstimate estimate = slam_.process(bundle);
+  record_.add(bundle, estimate);
+  publisher_.publish(estimate, [this] { return slam_.map(); });
+  const auto line =
+      status_.update(bundle, estimate, wearer_.frames_lost() + inbox_.counters().robot_lost, clock_.now());
+  if (line && progress) progress(*line);
+}
+
+std::vector<std::string> RobotAgent::finish() {
+  constexpr milliseconds kPatience{500};
+  publisher_.finish(kPatience);
+  const inbox::InboxCounters counted = inbox_.counters();
+  auto problems =
+      record_.finish(slam_.map(), to_seconds(clock_.now() - started_), [&](outbox::YamlText& text) {
+        text.section("inbox").counts(inbox::named_counts(counted)).top();
+        sensors_.report(text);
+        wearer_.report(text);
+        publisher_.report(text);
+      });
+  if (const auto lost = sensors_.counters().lost(); lost > 0) {
+    problems.push_back(
+        std::to_string(lost) +
+        " samples of the robot's own input could not be used; see own_sensors in summary.yaml");
+  }
+  if (const auto lost = counted.robot_images_dropped + counted.robot_frames_dropped; lost > 0) {
+    problems.push_back(std::to_string(lost) + " robot images came faster than they could be processed");
+  }
+  if (const auto lost = counted.robot_undecodable + counted.robot_wrong_size; lost > 0) {
+    problems.push_back(std::to_string(lost) + " robot images could not be decoded");
+  }
+  return problems;
+}
+
+}  // namespace cosight::robot
