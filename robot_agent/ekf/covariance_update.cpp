@@ -8,7 +8,8 @@ CovarianceUpdate::CovarianceUpdate(int state_capacity, int row_capacity)
     : L_(row_capacity, row_capacity),
       W_(state_capacity, row_capacity),
       whitened_(row_capacity),
-      correction_(state_capacity) {}
+      correction_(state_capacity),
+      variance_(state_capacity) {}
 
 bool CovarianceUpdate::factorise(const JointInnovation& innovation) {
   constexpr double kMinConditionalVariance = 1e-12;
@@ -40,8 +41,14 @@ bool CovarianceUpdate::factorise(const JointInnovation& innovation) {
 }
 
 void CovarianceUpdate::downdate(GaussianState& state) {
+  // Of the variance that goes, rounding keeps about this share either way. It is given back, or a covariance
+  // that falls by more than ten orders (a long gap, then a sharp measurement) would end below zero.
+  constexpr double kRounding = 1e-12;
   auto P = state.P_lower();
+  auto before = variance_.head(state_size_);
+  before = P.diagonal();
   P.selfadjointView<Eigen::Lower>().rankUpdate(W_.topLeftCorner(state_size_, rows_), -1.0);
+  P.diagonal() += kRounding * (before - P.diagonal());
 }
 
 }  // namespace cosight::ekf

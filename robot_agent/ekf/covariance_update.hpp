@@ -23,7 +23,7 @@ class CovarianceUpdate {
   /// g^T S^-1 g.
   double nis() const { return nis_; }
 
-  /// P -= W W^T.
+  /// P -= W W^T, less the rounding of what is taken away.
   void downdate(GaussianState& state);
 
  private:
@@ -34,6 +34,7 @@ class CovarianceUpdate {
   Eigen::MatrixXd W_;
   Eigen::VectorXd whitened_;
   Eigen::VectorXd correction_;
+  Eigen::VectorXd variance_;
 };
 
 }  // namespace cosight::ekf

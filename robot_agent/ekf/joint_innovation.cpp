@@ -1,6 +1,7 @@
 #include "robot_agent/ekf/joint_innovation.hpp"
 
 #include <Eigen/Cholesky>
+#include <cmath>
 #include <limits>
 
 namespace cosight::ekf {
@@ -40,6 +41,21 @@ void multiply_rows(const Eigen::Ref<const Eigen::MatrixXd>& P_Ht, const Linearis
   const Eigen::Index columns = S_rows.cols();
   S_rows = m.H_camera.topRows<Rows>().lazyProduct(P_Ht.topLeftCorner(kPose, columns));
   S_rows += m.H_landmark.topLeftCorner<Rows, Dim>().lazyProduct(P_Ht.block(m.offset, 0, Dim, columns));
+}
+
+/// What rounding may make of row `k` of H P H^T: a share of its largest possible value, (sum |H_kj|
+/// sigma_j)^2. Added to R, or a sharp measurement after a long gap would be believed beyond the digits that P
+/// has.
+double rounding_variance(const GaussianState& state, const LinearisedMeasurement& m, int k) {
+  constexpr double kRounding = 1e-12;
+  const auto P = state.P_lower();
+  double sigma = 0.0;
+  for (int j = 0; j < kPose; ++j)
+    sigma += std::abs(m.H_camera(k, j)) * std::sqrt(P(j, j));
+  for (int j = 0; j < m.dim; ++j) {
+    sigma += std::abs(m.H_landmark(k, j)) * std::sqrt(P(m.offset + j, m.offset + j));
+  }
+  return kRounding * sigma * sigma;
 }
 
 double normalised_innovation_squared(const Eigen::Matrix3d& S_ii, const Eigen::Vector3d& g, int rows) {
@@ -91,6 +107,8 @@ void JointInnovation::compute(const GaussianState& state, bool correlated) {
     add_innovation_covariance(m);
     auto S_ii = S_.block(m.row, m.row, m.rows, m.rows);
     S_ii += m.R.topLeftCorner(m.rows, m.rows);
+    for (int k = 0; k < m.rows; ++k)
+      S_ii(k, k) += rounding_variance(state, m, k);
     Eigen::Matrix3d block = Eigen::Matrix3d::Identity();
     block.topLeftCorner(m.rows, m.rows) = S_ii;
     m.nis = normalised_innovation_squared(block, m.innovation, m.rows);

@@ -20,8 +20,9 @@ MatrixXd whole(const GaussianState& state) {
 /// Both filters side by side, with the same camera and landmarks.
 class SideBySide : public testing::TestWithParam<unsigned> {
  protected:
-  static FilterOptions options() {
+  static FilterOptions options(unsigned seed) {
     FilterOptions o;
+    o.point_form = seed % 2 == 0 ? PointForm::kInverseDistance : PointForm::kEuclidean;
     o.max_landmarks = 12;
     o.max_clones = 3;
     o.gate_probability = 1.0;
@@ -134,7 +135,7 @@ class SideBySide : public testing::TestWithParam<unsigned> {
 
   RandomScene scene{GetParam()};
   CameraModel camera = scene.camera();
-  Filter filter{camera, options()};
+  Filter filter{camera, options(GetParam())};
   DenseFilter dense;
   StereoRig rig;
   std::vector<LandmarkId> ids;
@@ -186,10 +187,22 @@ TEST_P(SideBySide, UpdatesOfPixelsAndPointsAgree) {
   R.block<3, 3>(2, 7) = R.block<3, 3>(7, 2).transpose();
   const std::array<int, 4> offsets{filter.landmark_offset(ids[2]), filter.landmark_offset(ids[3]),
                                    filter.landmark_offset(ids[0]), filter.landmark_offset(ids[1])};
+  const bool in_metres = filter.options().point_form == PointForm::kEuclidean;
+  const auto form = [in_metres](const VectorXd& v) {
+    VectorXd formed = v;
+    for (const int at : {2, 7}) {
+      const Vector3d p = v.segment<3>(at);
+      if (!in_metres) formed.segment<3>(at) << p.x() / p.z(), p.y() / p.z(), 1.0 / p.norm();
+    }
+    return formed;
+  };
+  const MatrixXd J_form = numeric_jacobian(form, z);
+  R = (J_form * R * J_form.transpose()).eval();
+  z = form(z);
   const auto h = [&](const VectorXd& x) {
     VectorXd v(10);
     v << pixel_of(x, offsets[0]), point_of(x, offsets[1]), pixel_of(x, offsets[2]), point_of(x, offsets[3]);
-    return v;
+    return form(v);
   };
   const MatrixXd H = numeric_jacobian(h, dense.x);
   const MatrixXd S = H * dense.P * H.transpose() + R;
@@ -294,8 +307,13 @@ TEST_P(SideBySide, PredictedPixelsAndPointsHaveTheInnovationCovarianceOfTheUpdat
     EXPECT_LT(innovation.g().norm(), 1e-9);
     EXPECT_THAT(
         MatrixXd(innovation.S_lower().topLeftCorner<2, 2>()).triangularView<Eigen::Lower>().toDenseMatrix(),
-        IsNearMatrix(MatrixXd(pixel->S).triangularView<Eigen::Lower>().toDenseMatrix(), 1e-9));
-    EXPECT_NEAR(innovation.S_lower()(4, 4), point->covariance(2, 2) + 1.0, 1e-9);
+        IsNearMatrix(MatrixXd(pixel->S).triangularView<Eigen::Lower>().toDenseMatrix(), 1e-6));
+    Eigen::Matrix3d J = Eigen::Matrix3d::Identity();
+    if (filter.options().point_form == PointForm::kInverseDistance)
+      bearing_and_inverse_distance(point->p_S, &J);
+    const MatrixXd S_e = J * (point->covariance + Eigen::Matrix3d::Identity()) * J.transpose();
+    EXPECT_NEAR(innovation.S_lower()(4, 4), S_e(2, 2), 1e-9);
+    EXPECT_NEAR(innovation.S_lower()(3, 2), S_e(1, 0), 1e-9);
   }
 }
 
