@@ -33,13 +33,14 @@ wait_for() {
 # looks, empty for always. The robot's results and both logs end in RUN_DIR. A dataset without a wearer runs the robot
 # alone.
 run_agents() {
-  local dataset=$1 run_dir=$2 mode=$3 domain robot wearer='' status=0
+  local dataset=$1 run_dir=$2 mode=$3 domain robot wearer='' status=0 patience=()
   shift 3
   domain=$(private_domain)
   rm -rf "$run_dir"
   mkdir -p "$run_dir"
+  [[ ! -d $dataset/wearer ]] || patience=(--wait-for-wearer 20)
   "$programs/robot_agent" --config "$source_dir/config/robot.yaml" --dataset "$dataset" --mode "$mode" \
-    --run-dir "$run_dir" --domain "$domain" "$@" >"$run_dir.robot.log" 2>&1 &
+    --run-dir "$run_dir" --domain "$domain" "${patience[@]}" "$@" >"$run_dir.robot.log" 2>&1 &
   robot=$!
   agent_pids+=("$robot")
   if [[ -d $dataset/wearer ]]; then
