@@ -5,10 +5,12 @@
 #include <cmath>
 #include <cstddef>
 
+#include "robot_agent/vision/index.hpp"
+
 namespace cosight::vision {
 namespace {
 
-using GrayLevels = std::array<float, Patch::kStride * Patch::kMaxSide>;
+using GrayLevels = std::array<float, std::size_t{Patch::kStride} * Patch::kMaxSide>;
 
 /// The window around `pixel`, bilinear; one pair of weights for all, since they share the fraction. Relative
 /// to the patch's mean, so that small numbers are summed. False when it does not lie in the image.
@@ -52,7 +54,7 @@ std::optional<Eigen::Vector2d> align_patch(const GrayImage& image, const Patch& 
     Eigen::Vector4f y = Eigen::Vector4f::Zero();
     for (int r = 1; r + 1 < patch.side; ++r) {
       for (int c = 1; c + 1 < patch.side; ++c) {
-        const auto i = static_cast<std::size_t>(r * Patch::kStride + c);
+        const auto i = index(r * Patch::kStride + c);
         const Eigen::Vector4f row(0.5F * (w[i + 1] - w[i - 1]),
                                   0.5F * (w[i + Patch::kStride] - w[i - Patch::kStride]), w[i], 1.0F);
         A += row * row.transpose();

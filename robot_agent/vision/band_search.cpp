@@ -30,8 +30,7 @@ PatchMatch BandSearch::find(const GrayImage& image_F, const BandTarget& target, 
     }
   }
   if (!searched_) return {};
-  std::stable_sort(peaks_.begin(), peaks_.end(),
-                   [](const Peak& a, const Peak& b) { return a.score > b.score; });
+  std::sort(peaks_.begin(), peaks_.end(), [](const Peak& a, const Peak& b) { return a.score > b.score; });
   return judge_peaks(peaks_, image_F, best_patch_, options_, scan_);
 }
 

@@ -39,6 +39,7 @@ class BandSearch {
   };
   void search_piece(const GrayImage& image_F, const BandTarget& target, const Piece& piece);
 
+  Patch best_patch_;
   SearchOptions options_;
   int side_;
   ZnccScan scan_;
@@ -46,7 +47,6 @@ class BandSearch {
   ConvexPolygon outline_;
   std::vector<Peak> piece_peaks_;
   std::vector<Peak> peaks_;
-  Patch best_patch_;
   bool searched_ = false;
 };
 

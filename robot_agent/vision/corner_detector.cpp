@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <opencv2/features2d.hpp>
 
+#include "robot_agent/vision/index.hpp"
 #include "robot_agent/vision/opencv_view.hpp"
 
 namespace cosight::vision {
@@ -21,7 +22,7 @@ class CellCounts {
  public:
   CellCounts(const GrayImage& image, int cell)
       : cell_(cell), columns_(image.width / cell + 1), rows_(image.height / cell + 1) {
-    counts_.resize(static_cast<std::size_t>(columns_ * rows_), 0);
+    counts_.resize(index(columns_ * rows_), 0);
   }
   int cell_of(const Eigen::Vector2d& pixel) const {
     const int column = std::clamp(static_cast<int>(pixel.x()) / cell_, 0, columns_ - 1);
@@ -64,13 +65,13 @@ std::vector<Corner> propose(const GrayImage& image, const CornerOptions& options
   std::vector<cv::KeyPoint> keypoints;
   cv::FAST(opencv_view(image)(searched), keypoints, options.fast_threshold, suppress_neighbours);
   const int columns = searched.width / kBlock + 1;
-  std::vector<Corner> best(static_cast<std::size_t>(columns * (searched.height / kBlock + 1)));
+  std::vector<Corner> best(index(columns * (searched.height / kBlock + 1)));
   for (const cv::KeyPoint& keypoint : keypoints) {
     const int x = static_cast<int>(keypoint.pt.x);
     const int y = static_cast<int>(keypoint.pt.y);
     const Eigen::Vector2d pixel(searched.x + x, searched.y + y);
     const double score = shi_tomasi_score(image, searched.x + x, searched.y + y);
-    Corner& corner = best[static_cast<std::size_t>(y / kBlock * columns + x / kBlock)];
+    Corner& corner = best[index(y / kBlock * columns + x / kBlock)];
     if (score > corner.score) corner = {pixel, score};
   }
   std::erase_if(best, [&](const Corner& corner) {

@@ -6,10 +6,12 @@
 #include <cmath>
 #include <cstddef>
 
+#include "robot_agent/vision/index.hpp"
+
 namespace cosight::vision {
 namespace {
 
-using GrayLevels = std::array<float, Patch::kMaxSide * Patch::kMaxSide>;
+using GrayLevels = std::array<float, std::size_t{Patch::kMaxSide} * Patch::kMaxSide>;
 
 /// A grid of pixels that can be read between and beyond them.
 struct Raster {
@@ -46,7 +48,7 @@ struct Raster {
 Patch make_patch(const GrayLevels& gray, int side) {
   const int n = side * side;
   int total = 0;
-  std::array<int, Patch::kMaxSide * Patch::kMaxSide> rounded;
+  std::array<int, std::size_t{Patch::kMaxSide} * Patch::kMaxSide> rounded;
   for (int i = 0; i < n; ++i) {
     const auto k = static_cast<std::size_t>(i);
     rounded[k] = static_cast<int>(gray[k] + 0.5F);
@@ -58,7 +60,7 @@ Patch make_patch(const GrayLevels& gray, int side) {
   double squares = 0.0;
   for (int i = 0; i < n; ++i) {
     const int deviation = rounded[static_cast<std::size_t>(i)] - patch.mean;
-    const auto k = static_cast<std::size_t>(i / side * Patch::kStride + i % side);
+    const auto k = index(i / side * Patch::kStride + i % side);
     patch.deviations[k] = static_cast<std::int16_t>(deviation);
     patch.sum += deviation;
     squares += deviation * deviation;

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 
@@ -15,11 +16,11 @@ struct Patch {
   static constexpr int kMaxSide = 15;
   static constexpr int kStride = 16;
 
-  int side = 0;                                                           ///< odd, at most kMaxSide [px]
-  int mean = 0;                                                           ///< rounded gray level
-  alignas(32) std::array<std::int16_t, kStride * kMaxSide> deviations{};  ///< gray level - mean
-  std::int32_t sum = 0;       ///< of the deviations: what the rounding of the mean left
+  alignas(32) std::array<std::int16_t, std::size_t{kStride} * kMaxSide> deviations{};  ///< gray level - mean
   double inverse_norm = 0.0;  ///< 1 / sqrt(n sum(d^2) - sum(d)^2); 0 for a flat patch
+  std::int32_t sum = 0;       ///< of the deviations: what the rounding of the mean left
+  int side = 0;               ///< odd, at most kMaxSide [px]
+  int mean = 0;               ///< rounded gray level
 
   int half() const { return side / 2; }
   bool is_flat() const { return inverse_norm == 0.0; }
@@ -32,7 +33,8 @@ struct ReferencePatch {
 
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();   ///< the feature in the image it was cut from
   Eigen::Vector2d centre = Eigen::Vector2d::Zero();  ///< the same point in `gray` (column, row)
-  std::array<std::uint8_t, kSide * kSide> gray{};    ///< pixels outside the image repeat its border
+  std::array<std::uint8_t, std::size_t{kSide} * kSide>
+      gray{};  ///< pixels outside the image repeat its border
 };
 
 /// A patch at full and at half resolution; the half one shows twice the area and serves the coarse search.

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <numbers>
 
+#include "robot_agent/vision/index.hpp"
 #include "robot_agent/vision/surf.hpp"
 
 namespace cosight::vision {
@@ -81,15 +82,13 @@ Surf::Surf(const SurfOptions& options) : options_(options) {
   for (int j = 0; j < 9; ++j) {
     for (int i = 0; i < 9; ++i) {
       const double r2 = (i - 4) * (i - 4) + (j - 4) * (j - 4);
-      region_weights_[static_cast<std::size_t>(j * 9 + i)] =
-          static_cast<float>(std::exp(-r2 / (2.0 * 2.5 * 2.5)));
+      region_weights_[index(j * 9 + i)] = static_cast<float>(std::exp(-r2 / (2.0 * 2.5 * 2.5)));
     }
   }
   for (int j = 0; j < 4; ++j) {
     for (int i = 0; i < 4; ++i) {
       const double r2 = (i - 1.5) * (i - 1.5) + (j - 1.5) * (j - 1.5);
-      grid_weights_[static_cast<std::size_t>(j * 4 + i)] =
-          static_cast<float>(std::exp(-r2 / (2.0 * 1.5 * 1.5)));
+      grid_weights_[index(j * 4 + i)] = static_cast<float>(std::exp(-r2 / (2.0 * 1.5 * 1.5)));
     }
   }
 }
@@ -126,7 +125,7 @@ SurfDescriptor Surf::describe(const IntegralImage& image, const SurfPoint& point
   const auto c = static_cast<float>(cosine);
   const auto n = static_cast<float>(sine);
   const bool inside = holds(image, point.pixel, s * 17.0 + half + 1.0);
-  std::array<Wavelet, kGrid * kGrid> samples;
+  std::array<Wavelet, std::size_t{kGrid} * kGrid> samples;
   for (int j = 0; j < kGrid; ++j) {
     for (int i = 0; i < kGrid; ++i) {
       const double u = s * (i - 0.5 * (kGrid - 1));
@@ -134,7 +133,7 @@ SurfDescriptor Surf::describe(const IntegralImage& image, const SurfPoint& point
       const int x = rounded(point.pixel.x() + cosine * u - sine * v);
       const int y = rounded(point.pixel.y() + sine * u + cosine * v);
       const Wavelet w = inside ? wavelet<true>(image, x, y, half) : wavelet<false>(image, x, y, half);
-      samples[static_cast<std::size_t>(j * kGrid + i)] = {c * w.x + n * w.y, c * w.y - n * w.x};
+      samples[index(j * kGrid + i)] = {c * w.x + n * w.y, c * w.y - n * w.x};
     }
   }
   SurfDescriptor descriptor{};
@@ -145,8 +144,8 @@ SurfDescriptor Surf::describe(const IntegralImage& image, const SurfPoint& point
     float sums[4] = {};
     for (int j = 0; j < 9; ++j) {
       for (int i = 0; i < 9; ++i) {
-        const float weight = region_weights_[static_cast<std::size_t>(j * 9 + i)];
-        const Wavelet& w = samples[static_cast<std::size_t>((top + j) * kGrid + left + i)];
+        const float weight = region_weights_[index(j * 9 + i)];
+        const Wavelet& w = samples[index((top + j) * kGrid + left + i)];
         sums[0] += weight * w.x;
         sums[1] += weight * w.y;
         sums[2] += weight * std::abs(w.x);
@@ -155,7 +154,7 @@ SurfDescriptor Surf::describe(const IntegralImage& image, const SurfPoint& point
     }
     for (int k = 0; k < 4; ++k) {
       const float value = grid_weights_[static_cast<std::size_t>(region)] * sums[k];
-      descriptor[static_cast<std::size_t>(4 * region + k)] = value;
+      descriptor[index(4 * region + k)] = value;
       squares += value * value;
     }
   }

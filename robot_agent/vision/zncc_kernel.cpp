@@ -78,12 +78,18 @@ void correlate_row_portable(const std::int16_t* templ, int side, const std::int1
   }
 }
 
-CorrelateRow fastest_correlate_row() {
+std::vector<CorrelateRow> vector_correlate_rows() {
+  std::vector<CorrelateRow> rows;
 #if defined(__x86_64__)
-  return __builtin_cpu_supports("avx2") ? correlate_row_avx2 : correlate_row_sse2;
-#else
-  return correlate_row_portable;
+  rows.push_back(correlate_row_sse2);
+  if (__builtin_cpu_supports("avx2")) rows.push_back(correlate_row_avx2);
 #endif
+  return rows;
+}
+
+CorrelateRow fastest_correlate_row() {
+  const std::vector<CorrelateRow> rows = vector_correlate_rows();
+  return rows.empty() ? correlate_row_portable : rows.back();
 }
 
 }  // namespace cosight::vision

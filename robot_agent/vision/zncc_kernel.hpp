@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 namespace cosight::vision {
 
@@ -15,7 +16,10 @@ using CorrelateRow = void (*)(const std::int16_t* templ, int side, const std::in
 void correlate_row_portable(const std::int16_t* templ, int side, const std::int16_t* window, int stride,
                             int count, std::int32_t* out);
 
-/// The fastest that this machine runs.
+/// The vector versions that this machine runs, the fastest last; may be none.
+std::vector<CorrelateRow> vector_correlate_rows();
+
+/// The fastest of all.
 CorrelateRow fastest_correlate_row();
 
 }  // namespace cosight::vision

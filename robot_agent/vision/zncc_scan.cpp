@@ -5,16 +5,14 @@
 #include <cmath>
 #include <cstddef>
 
+#include "robot_agent/vision/index.hpp"
+
 namespace cosight::vision {
 namespace {
 
 constexpr float kOutside = -2.0F;
 constexpr float kLeastPeak = 0.01F;  // ZNCC 0.1, squared: less is no likeness at all
 constexpr double kMaxOffset = 0.75;  // [px] farther from its pixel a peak would be another pixel's
-
-std::size_t index(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 ScanRegion::Span clipped_span(double begin, double last, int patch_half, int width) {
   // Bounds first: a span of a far-off ellipse would not fit an int.
