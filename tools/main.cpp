@@ -6,7 +6,12 @@
 #include "tools/prepare_command.hpp"
 #include "tools/summarise_command.hpp"
 
-int main(int argc, char** argv) {
+namespace {
+
+constexpr int kFailed = 1;
+constexpr int kUsage = 2;
+
+int run(int argc, char** argv) {
   CLI::App program{"Cosight's tools around a run: prepare data, evaluate, summarise"};
   program.require_subcommand(1);
   program.set_version_flag("--version", COSIGHT_VERSION);
@@ -16,10 +21,18 @@ int main(int argc, char** argv) {
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return program.exit(error) == 0 ? 0 : 2;
-  } catch (const std::exception& error) {
-    std::cerr << "cosight: " << error.what() << '\n';
-    return 1;
+    return program.exit(error) == 0 ? 0 : kUsage;
   }
   return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
+    std::cerr << "cosight: " << error.what() << '\n';
+    return kFailed;
+  }
 }

@@ -5,9 +5,9 @@
 #include <numbers>
 #include <utility>
 
+#include "shared/dataset/number_text.hpp"
 #include "shared/evaluation/collaboration_metrics.hpp"
 #include "shared/evaluation/evaluation_error.hpp"
-#include "shared/dataset/number_text.hpp"
 
 namespace cosight {
 namespace {
