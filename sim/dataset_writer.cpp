@@ -6,9 +6,9 @@
 namespace cosight::sim {
 namespace {
 
-/// 17 digits say a double exactly; the csv files carry no less than the run knew.
+/// 15 digits: more than anything needs, and what a scene file says comes out as it was written.
 std::ofstream& exactly(TextFile& file) {
-  return static_cast<std::ofstream&>(file.stream() << std::setprecision(17));
+  return static_cast<std::ofstream&>(file.stream() << std::setprecision(15));
 }
 
 void write_vector(std::ostream& stream, const Eigen::Vector3d& v) {

@@ -12,17 +12,17 @@ namespace cosight::sim {
 
 /// How the wearer goes with the robot and where they look, over time.
 struct WearerPlan {
-  std::vector<Keyframe> ahead;      ///< of the robot along its path [m]; negative: follows
-  std::vector<Keyframe> left;       ///< of the robot's path [m]
-  std::vector<Keyframe> gaze_left;  ///< of the path's direction [rad]
-  std::vector<Keyframe> gaze_up;    ///< [rad]
-  std::vector<Keyframe> aside;      ///< added to gaze_left [rad]
-  double head_height = 1.65;        ///< of H, between the ears [m]
-  double step_length = 0.7;         ///< [m]
-  double bob = 0.02;                ///< amplitude of the head's bob at full speed [m]
-  double sway = 0.015;              ///< of its sway to the sides [m]
-  double nod = 0.012;               ///< of its pitch and roll [rad]
-  double glance = 0.08;             ///< of the wandering of the eyes that the head follows [rad]
+  std::vector<Keyframe> ahead{};      ///< of the robot along its path [m]; negative: follows
+  std::vector<Keyframe> left{};       ///< of the robot's path [m]
+  std::vector<Keyframe> gaze_left{};  ///< of the path's direction [rad]
+  std::vector<Keyframe> gaze_up{};    ///< [rad]
+  std::vector<Keyframe> aside{};      ///< added to gaze_left [rad]
+  double head_height = 1.65;          ///< of H, between the ears [m]
+  double step_length = 0.7;           ///< [m]
+  double bob = 0.02;                  ///< amplitude of the head's bob at full speed [m]
+  double sway = 0.015;                ///< of its sway to the sides [m]
+  double nod = 0.012;                 ///< of its pitch and roll [rad]
+  double glance = 0.08;               ///< of the wandering of the eyes that the head follows [rad]
 };
 
 /// A person who walks along with the robot.

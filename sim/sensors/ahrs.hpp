@@ -11,7 +11,7 @@ namespace cosight::sim {
 
 /// What an attitude and heading reference system gets wrong.
 struct AhrsPlan {
-  TimingPlan timing;
+  TimingPlan timing{};
   double roll_pitch_sigma = 0.5 * 0.017453292519943295;  ///< [rad]
   double yaw_sigma = 0.017453292519943295;               ///< [rad]
   double wander_time = 10.0;         ///< over which its errors change; they are no white noise [s]

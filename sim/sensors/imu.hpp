@@ -13,7 +13,7 @@ namespace cosight::sim {
 /// An inertial sensor; of the Xsens MTi-10's class by default.
 struct ImuPlan {
   TimingPlan timing{.rate = 200.0};
-  Pose T_BI;                               ///< where it sits in the body
+  Pose T_BI{};                             ///< where it sits in the body
   double gyro_density = 5.2e-4;            ///< [rad/s/sqrt(Hz)]
   double gyro_bias = 3.5e-3;               ///< deviation of the bias at the start [rad/s]
   double gyro_bias_wander = 8.7e-5;        ///< deviation of its changes in a run [rad/s]

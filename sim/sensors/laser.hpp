@@ -15,7 +15,7 @@ namespace cosight::sim {
 /// A laser range finder that turns in a plane; Leuze RS4-4 by default.
 struct LaserPlan {
   TimingPlan timing{.rate = 25.0};
-  Pose T_BL;                                      ///< x the middle of the arc, z up; rays in its x-y plane
+  Pose T_BL{};                                    ///< x the middle of the arc, z up; rays in its x-y plane
   int points = 133;                               ///< evenly over the arc, both ends included
   double arc = 190.0 * std::numbers::pi / 180.0;  ///< [rad]
   double range_min = 0.3, range_max = 20.0;       ///< [m]
