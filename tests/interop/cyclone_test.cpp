@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <spawn.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <array>
 #include <csignal>
@@ -14,8 +15,6 @@
 #include "shared/transport/publisher.hpp"
 #include "tests/shared/transport/example_samples.hpp"
 #include "tests/shared/transport/inbox_of.hpp"
-
-extern char** environ;
 
 namespace cosight::transport {
 namespace {

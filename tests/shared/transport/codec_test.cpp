@@ -38,31 +38,31 @@ class Codec : public ::testing::Test {
     return encode(sample, topic.profile, payload);
   }
 
-  ExampleSamples example_;
+  ExampleSamples example;
 };
 
 TEST_F(Codec, EverySampleComesBackAsItWent) {
   const auto same = [this](const auto& topic, const auto& sample) {
     expect_equal(there_and_back(topic, sample), sample);
   };
-  same(topics::kWearableImageCompressed, example_.image(ImageEncoding::kJpeg, 30, 20));
-  same(topics::kWearableImageCompressed, example_.image(ImageEncoding::kPng, 30, 20));
-  same(topics::kWearableImage, example_.image(ImageEncoding::kMono8, 30, 20));
+  same(topics::kWearableImageCompressed, example.image(ImageEncoding::kJpeg, 30, 20));
+  same(topics::kWearableImageCompressed, example.image(ImageEncoding::kPng, 30, 20));
+  same(topics::kWearableImage, example.image(ImageEncoding::kMono8, 30, 20));
   for (const Distortion distortion :
        {Distortion::kNone, Distortion::kRadtan, Distortion::kEquidistant, Distortion::kScenelibWide}) {
-    same(topics::kWearableCameraInfo, example_.camera_info(distortion));
+    same(topics::kWearableCameraInfo, example.camera_info(distortion));
   }
-  same(topics::kWearableImu, example_.ahrs());
-  same(topics::kRobotWearerPose, example_.wearer_pose(true));
-  same(topics::kRobotOdometry, example_.odometry());
-  same(topics::kRobotMap, example_.cloud(100));
-  same(topics::kRobotMap, example_.cloud(0));
-  same(topics::kRobotOverlap, example_.overlap());
-  same(topics::kRobotHeartbeat, example_.heartbeat());
+  same(topics::kWearableImu, example.ahrs());
+  same(topics::kRobotWearerPose, example.wearer_pose(true));
+  same(topics::kRobotOdometry, example.odometry());
+  same(topics::kRobotMap, example.cloud(100));
+  same(topics::kRobotMap, example.cloud(0));
+  same(topics::kRobotOverlap, example.overlap());
+  same(topics::kRobotHeartbeat, example.heartbeat());
 }
 
 TEST_F(Codec, PositionOnlyPoseLosesItsOrientationAndNothingElse) {
-  const WearerPoseSample sample = example_.wearer_pose(false);
+  const WearerPoseSample sample = example.wearer_pose(false);
   const WearerPoseSample back = there_and_back(topics::kRobotWearerPose, sample);
   EXPECT_FALSE(back.has_orientation);
   EXPECT_EQ(back.T_SF.T.p, sample.T_SF.T.p);
@@ -73,7 +73,7 @@ TEST_F(Codec, PositionOnlyPoseLosesItsOrientationAndNothingElse) {
 }
 
 TEST_F(Codec, StampsBeforeTheEpochKeepTheirNanoseconds) {
-  AhrsSample sample = example_.ahrs();
+  AhrsSample sample = example.ahrs();
   sample.stamp = -1;
   EXPECT_EQ(there_and_back(topics::kWearableImu, sample).stamp, -1);
   sample.stamp = 0;
@@ -81,40 +81,40 @@ TEST_F(Codec, StampsBeforeTheEpochKeepTheirNanoseconds) {
 }
 
 TEST_F(Codec, StampThatNoMessageCanSayIsRefused) {
-  AhrsSample sample = example_.ahrs();
+  AhrsSample sample = example.ahrs();
   sample.stamp = (Stamp{1} << 31) * kNanosecondsPerSecond;
   EXPECT_EQ(encoding(topics::kWearableImu, sample), Fault::kStamp);
 }
 
 TEST_F(Codec, NotANumberIsRefusedWhereverItStands) {
-  AhrsSample ahrs = example_.ahrs();
+  AhrsSample ahrs = example.ahrs();
   ahrs.acceleration_H.y() = kNan;
   EXPECT_EQ(encoding(topics::kWearableImu, ahrs), Fault::kNotFinite);
-  ahrs = example_.ahrs();
+  ahrs = example.ahrs();
   ahrs.q_WH.x() = kNan;
   EXPECT_EQ(encoding(topics::kWearableImu, ahrs), Fault::kNotFinite);
-  ahrs = example_.ahrs();
+  ahrs = example.ahrs();
   ahrs.orientation_covariance(1, 2) = kInfinity;
   EXPECT_EQ(encoding(topics::kWearableImu, ahrs), Fault::kNotFinite);
-  OdometrySample odometry = example_.odometry();
+  OdometrySample odometry = example.odometry();
   odometry.twist_covariance(5, 5) = kNan;
   EXPECT_EQ(encoding(topics::kRobotOdometry, odometry), Fault::kNotFinite);
-  WearerPoseSample pose = example_.wearer_pose(false);
+  WearerPoseSample pose = example.wearer_pose(false);
   pose.T_SF.T.p.z() = kInfinity;
   EXPECT_EQ(encoding(topics::kRobotWearerPose, pose), Fault::kNotFinite);
-  PointCloudSample cloud = example_.cloud(3);
+  PointCloudSample cloud = example.cloud(3);
   cloud.points[1].y = std::numeric_limits<float>::quiet_NaN();
   EXPECT_EQ(encoding(topics::kRobotMap, cloud), Fault::kNotFinite);
-  CameraInfoSample info = example_.camera_info(Distortion::kRadtan);
+  CameraInfoSample info = example.camera_info(Distortion::kRadtan);
   info.camera.coefficients[3] = kNan;
   EXPECT_EQ(encoding(topics::kWearableCameraInfo, info), Fault::kNotFinite);
-  OverlapSample overlap = example_.overlap();
+  OverlapSample overlap = example.overlap();
   overlap.roi_in_F[2].y() = kNan;
   EXPECT_EQ(encoding(topics::kRobotOverlap, overlap), Fault::kNotFinite);
 }
 
 TEST_F(Codec, QuaternionThatIsNoRotationIsRefused) {
-  AhrsSample ahrs = example_.ahrs();
+  AhrsSample ahrs = example.ahrs();
   ahrs.q_WH.coeffs() *= 1.01;
   EXPECT_EQ(encoding(topics::kWearableImu, ahrs), Fault::kRotation);
   ahrs.q_WH.coeffs().setZero();
@@ -122,16 +122,16 @@ TEST_F(Codec, QuaternionThatIsNoRotationIsRefused) {
 }
 
 TEST_F(Codec, CovarianceThatIsNoneIsRefused) {
-  WearerPoseSample pose = example_.wearer_pose(true);
+  WearerPoseSample pose = example.wearer_pose(true);
   pose.T_SF.covariance(0, 1) += 0.1;
   EXPECT_EQ(encoding(topics::kRobotWearerPose, pose), Fault::kCovariance);
-  pose = example_.wearer_pose(true);
+  pose = example.wearer_pose(true);
   pose.T_SF.covariance(0, 0) = -0.1;
   EXPECT_EQ(encoding(topics::kRobotWearerPose, pose), Fault::kCovariance);
 }
 
 TEST_F(Codec, RawImageMustHaveAsManyBytesAsPixels) {
-  ImageSample frame = example_.image(ImageEncoding::kMono8, 30, 20);
+  ImageSample frame = example.image(ImageEncoding::kMono8, 30, 20);
   frame.bytes.pop_back();
   EXPECT_EQ(encoding(topics::kWearableImage, frame), Fault::kSize);
   frame.width = 0;
@@ -142,7 +142,7 @@ TEST_F(Codec, RawImageMustHaveAsManyBytesAsPixels) {
 
 TEST_F(Codec, FrameLargerThanTheTopicAllowsIsRefusedOnBothSides) {
   TopicProfile tight = topics::kWearableImage.profile;
-  const ImageSample frame = example_.image(ImageEncoding::kMono8, 100, 100);
+  const ImageSample frame = example.image(ImageEncoding::kMono8, 100, 100);
   Payload payload;
   ASSERT_EQ(encode(frame, tight, payload), Fault::kNone);
   tight.max_bytes = 10000;
@@ -153,7 +153,7 @@ TEST_F(Codec, FrameLargerThanTheTopicAllowsIsRefusedOnBothSides) {
 }
 
 TEST_F(Codec, AgentNameMayNotCarryControlCharacters) {
-  HeartbeatSample heartbeat = example_.heartbeat();
+  HeartbeatSample heartbeat = example.heartbeat();
   heartbeat.agent_id = "a\x1b[2J";
   EXPECT_EQ(encoding(topics::kRobotHeartbeat, heartbeat), Fault::kText);
   heartbeat.agent_id = std::string(10000, 'a');
@@ -165,7 +165,7 @@ constexpr std::size_t kNumberOfFields = 4 + 8 + 4 + 4 + 4 + 4;
 
 TEST_F(Codec, CloudWithMoreFieldsThanAnyCloudHasIsRefusedBeforeTheyAreRead) {
   Payload payload;
-  ASSERT_EQ(encode(example_.cloud(100), topics::kRobotMap.profile, payload), Fault::kNone);
+  ASSERT_EQ(encode(example.cloud(100), topics::kRobotMap.profile, payload), Fault::kNone);
   ASSERT_EQ(payload[kNumberOfFields], 5);
   payload[kNumberOfFields] = 65;
   PointCloudSample back;
@@ -174,10 +174,10 @@ TEST_F(Codec, CloudWithMoreFieldsThanAnyCloudHasIsRefusedBeforeTheyAreRead) {
 
 TEST_F(Codec, CloudWithoutBytesIsEmptyWhateverItsHeightSays) {
   Payload payload;
-  ASSERT_EQ(encode(example_.cloud(0), topics::kRobotMap.profile, payload), Fault::kNone);
+  ASSERT_EQ(encode(example.cloud(0), topics::kRobotMap.profile, payload), Fault::kNone);
   for (std::size_t i = 0; i < 4; ++i)
     payload[kNumberOfFields - 8 + i] = 0xFF;  // four milliard rows of nothing
-  PointCloudSample back = example_.cloud(3);
+  PointCloudSample back = example.cloud(3);
   EXPECT_EQ(decode(payload, topics::kRobotMap.profile, back), Fault::kNone);
   EXPECT_TRUE(back.points.empty());
 }
@@ -198,7 +198,7 @@ class HostilePayload : public ::testing::Test {
       Sample back;
       return decode(payload, profile, back);
     };
-    cases_.push_back(std::move(one));
+    cases.push_back(std::move(one));
   }
 
   void SetUp() override {
@@ -214,11 +214,11 @@ class HostilePayload : public ::testing::Test {
     add(topics::kRobotHeartbeat, example.heartbeat());
   }
 
-  std::vector<Case> cases_;
+  std::vector<Case> cases;
 };
 
 TEST_F(HostilePayload, CutAnywhereIsRefused) {
-  for (const Case& one : cases_) {
+  for (const Case& one : cases) {
     for (std::size_t length = 0; length < one.payload.size(); ++length) {
       const Payload cut(one.payload.begin(), one.payload.begin() + static_cast<std::ptrdiff_t>(length));
       ASSERT_EQ(one.read(cut), Fault::kMalformed) << "cut at " << length;
@@ -228,7 +228,7 @@ TEST_F(HostilePayload, CutAnywhereIsRefused) {
 
 TEST_F(HostilePayload, RandomBytesAreRefused) {
   std::mt19937_64 random(1);
-  for (const Case& one : cases_) {
+  for (const Case& one : cases) {
     for (int i = 0; i < 2000; ++i) {
       Payload noise(random() % 600);
       for (std::uint8_t& byte : noise)
@@ -240,7 +240,7 @@ TEST_F(HostilePayload, RandomBytesAreRefused) {
 }
 
 TEST_F(HostilePayload, EveryWordReplacedByALyingLengthIsReadSafely) {
-  for (const Case& one : cases_) {
+  for (const Case& one : cases) {
     for (std::size_t at = 0; at + 4 <= one.payload.size(); ++at) {
       for (const std::uint32_t lie : {0xFFFFFFFFU, 0x7FFFFFFFU, 0x80000000U, 0x00010000U, 0U}) {
         Payload lying = one.payload;
@@ -253,7 +253,7 @@ TEST_F(HostilePayload, EveryWordReplacedByALyingLengthIsReadSafely) {
 
 TEST_F(HostilePayload, FlippedBitsAreReadSafely) {
   std::mt19937_64 random(2);
-  for (const Case& one : cases_) {
+  for (const Case& one : cases) {
     for (int i = 0; i < 5000; ++i) {
       Payload flipped = one.payload;
       for (int n = 0; n < 3; ++n)

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <netinet/in.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
 #include <chrono>
 #include <condition_variable>
+#include <cstdint>
 #include <mutex>
 #include <utility>
 #include <vector>
@@ -15,9 +18,29 @@ namespace cosight::transport {
 
 using namespace std::chrono_literals;  // NOLINT(google-build-using-namespace): test code
 
-/// A domain that no test running beside this one uses; below 101 the ports stay out of the ephemeral range.
+/// Whether nobody on this machine listens for participants of that domain. DDS shares the port; who does not
+/// share gets it only when it is free.
+inline bool is_free(int domain) {
+  const int socket_fd = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(static_cast<std::uint16_t>(7400 + 250 * domain));
+  const bool free = bind(socket_fd, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
+  close(socket_fd);
+  return free;
+}
+
+/// A domain for this process that nobody else uses. Tests take 1 to 99, the scripts those above; below 101
+/// the ports stay out of the ephemeral range.
 inline int own_domain() {
-  return 1 + static_cast<int>(getpid() % 100);
+  static const int domain = [] {
+    const int first = static_cast<int>(getpid() % 99);
+    for (int i = 0; i < 99; ++i) {
+      if (const int candidate = 1 + (first + i) % 99; is_free(candidate)) return candidate;
+    }
+    return 1 + first;
+  }();
+  return domain;
 }
 
 inline ParticipantOptions loopback(const char* name) {

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <spawn.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <array>
 #include <csignal>
@@ -14,8 +15,6 @@
 #include "tests/shared/transport/example_samples.hpp"
 #include "tests/shared/transport/inbox_of.hpp"
 #include "tests/shared/transport/raw_writer.hpp"
-
-extern char** environ;
 
 namespace cosight::transport {
 namespace {
@@ -109,6 +108,7 @@ TEST(Peers, NoiseFromAPeerIsCountedAndTheNextGoodSampleComesThrough) {
   InboxOf<AhrsSample> inbox(robot, topics::kWearableImu);
   RawWriter peer(own_domain(), topics::kWearableImu.profile);
   ASSERT_TRUE(inbox.subscriber.wait_for_writers(1, 5000ms));
+  ASSERT_TRUE(eventually([&] { return peer.has_reader(); }));
 
   ExampleSamples example;
   std::vector<std::uint8_t> good;

@@ -48,6 +48,13 @@ class RawWriter {
   RawWriter(const RawWriter&) = delete;
   RawWriter& operator=(const RawWriter&) = delete;
 
+  /// Matched on this side too: what is written before that is not for a VOLATILE reader.
+  bool has_reader() const {
+    eprosima::fastdds::dds::PublicationMatchedStatus status;
+    writer_->get_publication_matched_status(status);
+    return status.current_count > 0;
+  }
+
   bool write(std::vector<std::uint8_t> payload) { return writer_->write(&payload); }
 
  private:
