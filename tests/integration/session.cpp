@@ -1,0 +1,130 @@
+#include "tests/integration/session.hpp"
+
+#include <net/if.h>
+#include <sched.h>
+#include <sys/ioctl.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cstring>
+#include <fstream>
+#include <sstream>
+#include <thread>
+#include <utility>
+
+namespace cosight::integration {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool bring_loopback_up() {
+  const int socket = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  ifreq request{};
+  std::strncpy(request.ifr_name, "lo", IFNAMSIZ - 1);
+  request.ifr_flags = IFF_UP;
+  const bool is_up = ::ioctl(socket, SIOCSIFFLAGS, &request) == 0;
+  ::close(socket);
+  return is_up;
+}
+
+/// Another program on the same domain would be a third agent. A network of its own keeps everybody out;
+/// where the system gives none (no root), a number that few use has to do.
+int private_domain() {
+  static const bool has_own_network = ::unshare(CLONE_NEWNET) == 0 && bring_loopback_up();
+  constexpr int kDomains = 99;  // above, the ports reach into the ephemeral range
+  return has_own_network ? 1 : 1 + static_cast<int>(::getpid() % kDomains);
+}
+
+std::vector<std::string> lines_of(const fs::path& file) {
+  std::istringstream in(text_of(file));
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);)
+    lines.push_back(line);
+  return lines;
+}
+
+std::vector<std::string> cells_of(const std::string& line) {
+  std::istringstream in(line + ",");
+  std::vector<std::string> cells;
+  for (std::string cell; std::getline(in, cell, ',');)
+    cells.push_back(cell);
+  return cells;
+}
+
+}  // namespace
+
+RunFiles::RunFiles(fs::path folder) : folder_(std::move(folder)) {
+  std::vector<std::string> names;
+  for (const std::string& line : lines_of(folder_ / "frames.csv")) {
+    const std::vector<std::string> cells = cells_of(line);
+    if (names.empty()) {
+      names = cells;
+      continue;
+    }
+    Row& row = frames_.emplace_back();
+    for (std::size_t i = 0; i < names.size() && i < cells.size(); ++i)
+      row[names[i]] = cells[i];
+  }
+  for (const std::string& line : lines_of(folder_ / "trajectory.tum")) {
+    if (!line.starts_with('#')) trajectory_.push_back(line.substr(0, line.find(' ')));
+  }
+}
+
+int RunFiles::summary(const std::string& key) const {
+  const ConfigFile file = ConfigFile::load(folder_ / "summary.yaml");
+  const auto dot = key.find('.');
+  if (dot == std::string::npos) return file.root().integer(key, -1);
+  return file.root().section(key.substr(0, dot)).integer(key.substr(dot + 1), -1);
+}
+
+int RunFiles::count(const std::string& column, std::size_t first) const {
+  int frames = 0;
+  for (std::size_t i = first; i < frames_.size(); ++i)
+    frames += frames_[i].at(column) != "0" ? 1 : 0;
+  return frames;
+}
+
+Session::Session() {
+  const auto* const test = testing::UnitTest::GetInstance()->current_test_info();
+  folder_ =
+      fs::path(testing::TempDir()) / ("cosight_integration_" + std::to_string(::getpid())) / test->name();
+  fs::remove_all(folder_);
+  fs::create_directories(folder_);
+  run_folder_ = folder_ / "run";
+}
+
+Session::~Session() {
+  std::error_code ignored;
+  if (HasFailure()) return;  // its files say why
+  fs::remove_all(folder_, ignored);
+  fs::remove(folder_.parent_path(), ignored);
+}
+
+Session::Process Session::robot(const fs::path& dataset, const Arguments& more) {
+  return start(ROBOT_AGENT, "robot", {"--dataset", dataset.string(), "--run-dir", run_folder().string()},
+               more);
+}
+
+Session::Process Session::wearer(const fs::path& dataset, const Arguments& more) {
+  return start(WEARABLE_AGENT, "wearer", {"--dataset", dataset.string(), "--wait-for-robot", "20"}, more);
+}
+
+Session::Process Session::start(const std::string& program, const std::string& name, Arguments arguments,
+                                const Arguments& more) {
+  const Arguments apart{"--domain", std::to_string(private_domain()), "--set", "dds.interfaces=[lo]"};
+  arguments.insert(arguments.end(), apart.begin(), apart.end());
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return std::make_unique<ChildProcess>(program, arguments, in_folder(name + std::to_string(++started_)));
+}
+
+bool Session::robot_reaches(int frames) const {
+  constexpr std::chrono::milliseconds kSlice{20};
+  constexpr std::chrono::seconds kPatience{20};
+  for (auto waited = std::chrono::milliseconds{0}; waited < kPatience; waited += kSlice) {
+    if (run_files().frames().size() >= static_cast<std::size_t>(frames)) return true;
+    std::this_thread::sleep_for(kSlice);
+  }
+  return false;
+}
+
+}  // namespace cosight::integration
