@@ -2,8 +2,8 @@
 
 #include <fstream>
 
-#include "shared/evaluation/evaluation_error.hpp"
 #include "shared/dataset/number_text.hpp"
+#include "shared/evaluation/evaluation_error.hpp"
 
 namespace cosight {
 

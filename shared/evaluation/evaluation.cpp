@@ -109,9 +109,9 @@ void add_collaboration(std::vector<Metric>& metrics, const Evaluation& evaluatio
 
 template <typename Value>
 std::vector<double> values_of(const std::vector<FrameRecord>& frames, Value value) {
-  std::vector<double> values;
-  for (const FrameRecord& frame : frames)
-    values.push_back(static_cast<double>(value(frame)));
+  std::vector<double> values(frames.size());
+  std::transform(frames.begin(), frames.end(), values.begin(),
+                 [&](const FrameRecord& frame) { return static_cast<double>(value(frame)); });
   return values;
 }
 

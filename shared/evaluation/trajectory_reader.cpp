@@ -6,8 +6,8 @@
 #include <fstream>
 #include <string>
 
-#include "shared/evaluation/evaluation_error.hpp"
 #include "shared/dataset/number_text.hpp"
+#include "shared/evaluation/evaluation_error.hpp"
 
 namespace cosight {
 namespace {

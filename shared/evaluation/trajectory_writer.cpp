@@ -3,8 +3,8 @@
 #include <fstream>
 #include <iomanip>
 
-#include "shared/evaluation/evaluation_error.hpp"
 #include "shared/dataset/number_text.hpp"
+#include "shared/evaluation/evaluation_error.hpp"
 
 namespace cosight {
 namespace {

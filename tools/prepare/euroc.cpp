@@ -6,9 +6,9 @@
 #include <string>
 
 #include "shared/config/calibration.hpp"
+#include "shared/dataset/number_text.hpp"
 #include "shared/evaluation/association.hpp"
 #include "shared/evaluation/csv_table.hpp"
-#include "shared/dataset/number_text.hpp"
 #include "shared/evaluation/trajectory_reader.hpp"
 #include "shared/image/image_codec.hpp"
 #include "tools/prepare/image_list.hpp"

@@ -4,9 +4,9 @@
 #include <string>
 
 #include "shared/config/calibration.hpp"
+#include "shared/dataset/number_text.hpp"
 #include "shared/evaluation/association.hpp"
 #include "shared/evaluation/csv_table.hpp"
-#include "shared/dataset/number_text.hpp"
 #include "shared/geometry/rotation.hpp"
 #include "tools/prepare/prepare_error.hpp"
 #include "tools/prepare/real_sequence.hpp"
