@@ -45,11 +45,21 @@ slam::PseudoStereoOptions read_pseudo_stereo(const ConfigNode& node) {
   o.min_parallax_deg = node.number("min_parallax_deg", o.min_parallax_deg, 0.05, 45.0);
   o.max_relative_depth_sigma = node.number("max_relative_depth_sigma", o.max_relative_depth_sigma, 0.01, 1.0);
   o.near = node.number("near", o.near, 0.01, 1000.0);
+  o.max_ambiguity = node.number("max_ambiguity", o.max_ambiguity, 0.1, 1.0);
   o.band_sigmas = node.number("band_sigmas", o.band_sigmas, 0.5, 10.0);
   o.max_band_radius = node.integer("max_band_radius", o.max_band_radius, 3, 1000);
   o.correlated_updates = node.boolean("correlated_updates", o.correlated_updates);
   o.correlated_starts = node.boolean("correlated_starts", o.correlated_starts);
   o.max_new_landmarks = node.integer("max_new_landmarks", o.max_new_landmarks, 0, 500);
+  return o;
+}
+
+slam::BodyOptions read_body(const ConfigNode& node) {
+  slam::BodyOptions o;
+  o.radius = node.number("radius", o.radius, 0.0, 5.0);
+  o.above_eyes = node.number("above_eyes", o.above_eyes, 0.0, 5.0);
+  o.below_eyes = node.number("below_eyes", o.below_eyes, 0.0, 5.0);
+  o.min_distance = node.number("min_distance", o.min_distance, 0.0, 100.0);
   return o;
 }
 
@@ -120,6 +130,7 @@ slam::SlamOptions read_slam_options(const ConfigNode& node) {
   options.search = read_search(node.section("search"));
   options.overlap = read_overlap(node.section("overlap"));
   options.pseudo_stereo = read_pseudo_stereo(node.section("pseudo_stereo"));
+  options.body = read_body(node.section("wearer_body"));
   options.candidates = read_candidates(node.section("candidates"));
   options.map = read_map(node.section("map"));
   options.start = read_start(node.section("start"));

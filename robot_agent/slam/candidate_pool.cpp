@@ -26,7 +26,8 @@ std::optional<Eigen::Vector3d> world_ray(const CameraModel& camera, const Pose& 
 CandidatePool::CandidatePool(const CandidateOptions& options, double pixel_sigma)
     : options_(options), pixel_sigma_(pixel_sigma) {}
 
-void CandidatePool::track(const vision::PointTracker& tracker, const ekf::Filter& filter, double depth) {
+void CandidatePool::track(const vision::PointTracker& tracker, const ekf::Filter& filter, double depth,
+                          const ConvexPolygon& hidden) {
   const CameraModel& camera = filter.camera_model();
   const Pose T_WS = filter.camera().T_WS();
   std::vector<vision::TrackStart> starts;
@@ -51,7 +52,7 @@ void CandidatePool::track(const vision::PointTracker& tracker, const ekf::Filter
   std::vector<Candidate> kept;
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
     Candidate& candidate = candidates_[i];
-    if (!found[i] || ++candidate.age > options_.max_age_frames) continue;
+    if (!found[i] || contains(hidden, found[i].pixel) || ++candidate.age > options_.max_age_frames) continue;
     candidate.pixel = found[i].pixel;
     kept.push_back(std::move(candidate));
   }
@@ -110,7 +111,7 @@ int CandidatePool::initialise(ekf::Filter& filter, LandmarkTracks& tracks, int m
 
 void CandidatePool::detect(const GrayImage& image, ekf::Filter& filter,
                            const vision::CornerDetector& detector, std::vector<Eigen::Vector2d> occupied,
-                           int wanted) {
+                           const ConvexPolygon& hidden, int wanted) {
   if (++frames_since_detection_ < options_.keyframe_interval) return;
   const int missing = std::min(wanted, options_.max_candidates - size());
   if (missing <= 0) return;
@@ -126,6 +127,7 @@ void CandidatePool::detect(const GrayImage& image, ekf::Filter& filter,
   }
   const UncertainPose T_WS = filter.T_WS();
   for (const vision::Corner& corner : corners) {
+    if (contains(hidden, corner.pixel)) continue;
     candidates_.push_back(
         {{T_WS, corner.pixel}, clone, vision::cut_reference(image, corner.pixel), corner.pixel, 0});
   }

@@ -10,6 +10,7 @@
 #include "robot_agent/vision/corner_detector.hpp"
 #include "robot_agent/vision/patch.hpp"
 #include "robot_agent/vision/point_tracker.hpp"
+#include "shared/geometry/convex_polygon.hpp"
 #include "shared/image/gray_image.hpp"
 
 namespace cosight::slam {
@@ -30,14 +31,16 @@ class CandidatePool {
   explicit CandidatePool(const CandidateOptions& options, double pixel_sigma);
 
   /// Follows every candidate into the present frame; `depth` [m] is what is assumed of points without one.
-  void track(const vision::PointTracker& tracker, const ekf::Filter& filter, double depth);
+  void track(const vision::PointTracker& tracker, const ekf::Filter& filter, double depth,
+             const ConvexPolygon& hidden);
 
   /// Starts those that have parallax (DI-D), at most until the filter has `max_landmarks`. Returns how many.
   int initialise(ekf::Filter& filter, LandmarkTracks& tracks, int max_landmarks, int min_distance_px);
 
-  /// Every `keyframe_interval` frames: new candidates where the image shows neither landmark nor candidate.
+  /// Every `keyframe_interval` frames: new candidates where the image shows neither landmark nor candidate,
+  /// nor what `hidden` covers.
   void detect(const GrayImage& image, ekf::Filter& filter, const vision::CornerDetector& detector,
-              std::vector<Eigen::Vector2d> occupied, int wanted);
+              std::vector<Eigen::Vector2d> occupied, const ConvexPolygon& hidden, int wanted);
 
   void clear(ekf::Filter& filter);
   int size() const { return static_cast<int>(candidates_.size()); }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "robot_agent/slam/stopwatch.hpp"
+#include "robot_agent/slam/wearer_silhouette.hpp"
 #include "robot_agent/vision/patch_warp.hpp"
 
 namespace cosight::slam {
@@ -78,8 +79,10 @@ FrameEstimate CollaborativeSlam::process(const FrameBundle& bundle) {
   const bool known_motion = advance_to(bundle);  // predict, or find the motion in the images
   watch.lap(estimate.timings.predict);
 
+  see_wearer(bundle);
   std::vector<Sighting> sightings;  // search
-  if (bundle.image) sightings = search_.find(*bundle.image, filter_, tracks_, known_motion, estimate.search);
+  if (bundle.image)
+    sightings = search_.find(*bundle.image, filter_, tracks_, known_motion, silhouette_, estimate.search);
   watch.lap(estimate.timings.search);
 
   const auto view = wearer_view(bundle, estimate);  // overlap
@@ -119,6 +122,13 @@ bool CollaborativeSlam::advance_to(const FrameBundle& bundle) {
   return true;
 }
 
+void CollaborativeSlam::see_wearer(const FrameBundle& bundle) {
+  silhouette_.clear();
+  if (!bundle.wearer) return;
+  silhouette_ = wearer_silhouette(filter_.camera_model(), filter_.camera().T_WS(), bundle.wearer->T_SF.T,
+                                  options_.body);
+}
+
 bool CollaborativeSlam::is_wide(const std::vector<ekf::PixelPrediction>& predictions) const {
   if (predictions.empty()) return !tracks_.all().empty();
   std::vector<double> sigmas;
@@ -152,6 +162,7 @@ std::optional<StereoView> CollaborativeSlam::wearer_view(const FrameBundle& bund
   view.rig = {filter_.camera_model(), bundle.wearer->camera, *T_SF, options_.search.pixel_sigma,
               options_.pseudo_stereo.wearer_pixel_sigma};
   view.overlap = estimate.overlap;
+  view.silhouette = silhouette_;
   return view;
 }
 
@@ -230,12 +241,13 @@ void CollaborativeSlam::renew_map(const GrayImage& image, const std::optional<St
     estimate.landmarks_added += add_pseudo_stereo(image, *view, places, estimate.pseudo_stereo);
   }
   watch.lap(estimate.timings.pseudo_stereo);
-  candidates_.track(tracker_, filter_, usual_depth(search_.predict(filter_, tracks_)));
+  candidates_.track(tracker_, filter_, usual_depth(search_.predict(filter_, tracks_)), silhouette_);
   maintenance_.make_room(filter_, tracks_, candidates_.size());
   estimate.landmarks_added +=
       candidates_.initialise(filter_, tracks_, options_.map.max_landmarks, options_.map.min_distance_px);
   const int in_view = static_cast<int>(tracks_.found_pixels().size());
-  candidates_.detect(image, filter_, corners_, tracks_.found_pixels(), options_.map.max_landmarks - in_view);
+  candidates_.detect(image, filter_, corners_, tracks_.found_pixels(), silhouette_,
+                     options_.map.max_landmarks - in_view);
   watch.lap(estimate.timings.map);
 }
 

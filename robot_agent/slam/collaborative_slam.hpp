@@ -41,6 +41,7 @@ class CollaborativeSlam {
   std::vector<MapPoint> map() const { return maintenance_.map(); }
 
  private:
+  void see_wearer(const FrameBundle& bundle);
   bool advance_to(const FrameBundle& bundle);
   bool is_wide(const std::vector<ekf::PixelPrediction>& predictions) const;
   bool may_use_wearer(Stamp stamp) const;
@@ -75,6 +76,7 @@ class CollaborativeSlam {
   vision::CornerDetector corners_;
 
   Tracking tracking_ = Tracking::kWaitingForScale;
+  ConvexPolygon silhouette_;  ///< of the wearer in the present frame [px]
   std::optional<Stamp> last_stamp_;
   std::optional<Stamp> scale_stamp_;  ///< when tracking began
   int frames_without_match_ = 0;

@@ -47,11 +47,13 @@ const std::vector<ekf::PixelPrediction>& LandmarkSearch::predict(const ekf::Filt
 }
 
 std::vector<Sighting> LandmarkSearch::find(const GrayImage& image, const ekf::Filter& filter,
-                                           LandmarkTracks& tracks, bool known_motion, SearchCounts& counts) {
+                                           LandmarkTracks& tracks, bool known_motion,
+                                           const ConvexPolygon& hidden, SearchCounts& counts) {
   std::vector<Sighting> sightings;
   counts.predicted_in_view = static_cast<int>(predictions_.size());
   for (const ekf::PixelPrediction& prediction : predictions_) {
     if (counts.searched == options_.max_measured) break;
+    if (contains(hidden, prediction.pixel)) continue;
     LandmarkTrack& track = *tracks.find(prediction.landmark);
     const auto patch = predicted_patch(filter, track);
     ++counts.searched;

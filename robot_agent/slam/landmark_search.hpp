@@ -9,6 +9,7 @@
 #include "robot_agent/slam/landmark_tracks.hpp"
 #include "robot_agent/slam/options.hpp"
 #include "robot_agent/vision/active_search.hpp"
+#include "shared/geometry/convex_polygon.hpp"
 #include "shared/image/gray_image.hpp"
 
 namespace cosight::slam {
@@ -30,8 +31,9 @@ class LandmarkSearch {
 
   /// Looks for the predicted ones, at most `max_measured`. `known_motion`: the camera's pose is already known
   /// from the images themselves, so that only a few pixels around each prediction are left to search.
+  /// `hidden`: not looked for inside.
   std::vector<Sighting> find(const GrayImage& image, const ekf::Filter& filter, LandmarkTracks& tracks,
-                             bool known_motion, SearchCounts& counts);
+                             bool known_motion, const ConvexPolygon& hidden, SearchCounts& counts);
 
  private:
   std::optional<vision::PatchPyramid> predicted_patch(const ekf::Filter& filter,

@@ -54,11 +54,12 @@ struct PseudoStereoOptions {
   Matching matching = Matching::kBand;
   int max_features = 500;                  ///< described in each image
   double max_ratio = 0.85;                 ///< best / second best descriptor distance
-  double min_correlation = 0.7;            ///< ZNCC between the two views
+  double min_correlation = 0.85;           ///< ZNCC between the two views
   double wearer_pixel_sigma = 0.5;         ///< noise of a pixel in Cf, one axis [px]
   double min_parallax_deg = 1.0;           ///< below it there is no depth in the pair
   double max_relative_depth_sigma = 0.25;  ///< sigma_rho / rho above which a pair says too little
   double near = 0.3;                       ///< nothing nearer is looked for [m]
+  double max_ambiguity = 0.9;              ///< second best peak / best along the band
   double band_sigmas = 3.0;                ///< half-width of the epipolar band in sigmas of the pose
   int max_band_radius = 80;                ///< the band is cut to this half-width around the prediction [px]
   /// The points of a frame share the error of Cf's pose: measured with it (off-diagonal blocks of R), or as
@@ -68,6 +69,14 @@ struct PseudoStereoOptions {
   /// is the direction in which an EKF drifts (docs/decisions/0004).
   bool correlated_starts = false;
   int max_new_landmarks = 12;  ///< started from one frame
+};
+
+/// The wearer's body, as it hides the scene from the robot.
+struct BodyOptions {
+  double radius = 0.45;  ///< around the worn camera, arms included [m]; 0: nobody wears it (a second robot)
+  double above_eyes = 0.25;   ///< [m]
+  double below_eyes = 1.75;   ///< [m]
+  double min_distance = 0.6;  ///< nearer than this it is not a body in front of the camera [m]
 };
 
 /// Features that wait for parallax.
@@ -109,6 +118,7 @@ struct SlamOptions {
   MotionOptions motion;
   SearchOptions search;
   PseudoStereoOptions pseudo_stereo;
+  BodyOptions body;
   CandidateOptions candidates;
   MapOptions map;
   StartOptions start;

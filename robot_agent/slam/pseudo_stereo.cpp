@@ -19,6 +19,7 @@ vision::SearchOptions band_search_options(const PseudoStereoOptions& options) {
   result.n_sigmas = options.band_sigmas;
   result.min_score = options.min_correlation;
   result.max_half_window = options.max_band_radius;
+  result.max_second_ratio = options.max_ambiguity;
   return result;
 }
 
@@ -133,6 +134,7 @@ std::vector<ekf::StereoMatch> PseudoStereo::find_new(const StereoView& view, con
   for (const vision::Corner& corner :
        corners_.detect(image_S, occupied, kTriesPerMatch * wanted, &view.overlap.roi_in_S)) {
     if (static_cast<int>(matches.size()) == wanted) break;
+    if (contains(view.silhouette, corner.pixel)) continue;
     if (const auto match = match_corner(view, image_S, corner.pixel, counts)) matches.push_back(*match);
   }
   return matches;

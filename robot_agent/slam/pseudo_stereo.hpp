@@ -22,6 +22,7 @@ struct StereoView {
   const GrayImage* image_F = nullptr;
   ekf::StereoRig rig;
   OverlapEstimate overlap;
+  ConvexPolygon silhouette;  ///< the wearer's own body in Cs [px]: nothing inside is used
 };
 
 /// T_SF of a worn view; its orientation from the AHRS where only a position is given:
