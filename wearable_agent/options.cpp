@@ -3,6 +3,7 @@
 #include "shared/transport/participant_config.hpp"
 
 namespace cosight::wearable {
+
 WearableOptions read_wearable_options(const ConfigNode& root) {
   WearableOptions options;
   options.agent_id = root.text("agent_id", options.agent_id);
