@@ -70,7 +70,8 @@ class Run {
     write_tum(folder_ / "truth/robot_cam0.tum", truth_of(robot_));
     write_tum(folder_ / "truth/wearer_cam0.tum", truth_of(wearer_));
     write_sensors();
-    report.overlap_ratio = write_overlap_truth();
+    write_overlap_truth();
+    report.overlap_ratio = overlap_ratio();
     report.known_points = write_survey();
     if (options_.with_frames) write_frames();
     report.stopped = stop_;
@@ -151,11 +152,14 @@ class Run {
             seen_by_both(world_.building(), wearer_.camera, T_WF, robot_.camera, T_WS)};
   }
 
-  static double ratio_of(const std::vector<OverlapTruth>& overlap) {
+  /// Share of the frames in which Cf sees a useful part of what Cs sees.
+  double overlap_ratio() const {
     constexpr double kUsefulShare = 0.2;
-    const auto useful = std::count_if(overlap.begin(), overlap.end(),
-                                      [](const OverlapTruth& row) { return row.share_of_S >= kUsefulShare; });
-    return static_cast<double>(useful) / static_cast<double>(std::max<std::size_t>(1, overlap.size()));
+    const auto useful = std::count_if(robot_.ticks.begin(), robot_.ticks.end(), [&](const Tick& tick) {
+      return seen_by_both(world_.building(), robot_.camera, robot_.T_WC(tick.time), wearer_.camera,
+                          wearer_.T_WC(tick.time)) >= kUsefulShare;
+    });
+    return static_cast<double>(useful) / static_cast<double>(std::max<std::size_t>(1, robot_.ticks.size()));
   }
 
   /// Lets the wearer look aside for as long as gives the wanted overlap ratio: bisection on the share of the
@@ -169,19 +173,15 @@ class Run {
       WearerPlan plan = scenario_.wearer;
       plan.aside = glances(scenario_.gaze, share, world_.duration(), options_.seed);
       world_.set_wearer(plan);
-      std::vector<OverlapTruth> overlap;
-      for (const Tick& tick : robot_.ticks)
-        overlap.push_back(overlap_at(tick));
-      (ratio_of(overlap) < scenario_.gaze.ratio ? low : high) = share;
+      (overlap_ratio() < scenario_.gaze.ratio ? low : high) = share;
     }
   }
 
-  double write_overlap_truth() const {
+  void write_overlap_truth() const {
     std::vector<OverlapTruth> overlap;
     for (const Tick& tick : robot_.ticks)
       overlap.push_back(overlap_at(tick));
     write_overlap(folder_ / "truth/overlap.csv", overlap);
-    return ratio_of(overlap);
   }
 
   std::size_t write_survey() const {
