@@ -1,6 +1,7 @@
 #include <sys/mount.h>
 
 #include <fstream>
+#include <utility>
 
 #include "shared/image/gray_image.hpp"
 #include "shared/image/image_codec.hpp"
@@ -78,15 +79,51 @@ TEST_F(BadInput, ARunFolderThatIsAFileIsRefused) {
   EXPECT_THAT(ending.err, HasSubstr("taken/run: the run folder can't be used: "));
 }
 
+/// Memory that behaves as a small disk; needs root.
+class SmallDisk {
+ public:
+  SmallDisk(fs::path folder, const std::string& size) : folder_(std::move(folder)) {
+    fs::create_directory(folder_);
+    is_there_ = ::mount("none", folder_.c_str(), "tmpfs", 0, ("size=" + size).c_str()) == 0;
+  }
+  SmallDisk(const SmallDisk&) = delete;
+  SmallDisk& operator=(const SmallDisk&) = delete;
+  ~SmallDisk() {
+    if (is_there_) ::umount(folder_.c_str());
+  }
+
+  bool is_there() const { return is_there_; }
+  void fill() const {
+    std::ofstream file(folder_ / "filler");
+    for (const std::string megabyte(1'000'000, 'x'); file.good();)
+      file << megabyte << std::flush;
+  }
+
+ private:
+  fs::path folder_;
+  bool is_there_ = false;
+};
+
 TEST_F(BadInput, AFullDiskIsRefusedBeforeTheFirstFrame) {
-  const fs::path disk = in_folder("disk");
-  fs::create_directory(disk);
-  if (::mount("none", disk.c_str(), "tmpfs", 0, "size=64k") != 0) GTEST_SKIP() << "a small disk needs root";
-  write_into(disk / "run");
+  const SmallDisk disk(in_folder("disk"), "64k");
+  if (!disk.is_there()) GTEST_SKIP() << "a small disk needs root";
+  write_into(in_folder("disk/run"));
   const Ending ending = run_alone();
-  ::umount(disk.c_str());
   EXPECT_EQ(ending.exit_code, 1);
-  EXPECT_THAT(ending.err, HasSubstr((disk / "run").string() + ": the run folder can't be used: only 0 MB"));
+  EXPECT_THAT(ending.err, HasSubstr(run_folder().string() + ": the run folder can't be used: only 0 MB"));
+}
+
+TEST_F(BadInput, ADiskThatFillsUpInTheMiddleIsToldAtTheEnd) {
+  const SmallDisk disk(in_folder("disk"), "20m");
+  if (!disk.is_there()) GTEST_SKIP() << "a small disk needs root";
+  write_into(in_folder("disk/run"));
+  const auto robot_process = robot(dataset(), {"--mode", "mono"});
+  ASSERT_TRUE(robot_reaches(5));
+  disk.fill();
+  const Ending ending = robot_process->wait();
+  EXPECT_EQ(ending.exit_code, 3) << ending.err;
+  EXPECT_THAT(ending.err, testing::ContainsRegex("frames.csv: [0-9]+ lines are missing: No space left"));
+  EXPECT_THAT(ending.err, HasSubstr("summary.yaml: can't be written"));
 }
 
 }  // namespace

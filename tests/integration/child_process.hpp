@@ -31,7 +31,7 @@ class ChildProcess {
   bool is_running();
 
   /// Waits for its end; kills it when `patience` is over, which shows as 137.
-  Ending wait(std::chrono::milliseconds patience = std::chrono::seconds{40});
+  Ending wait(std::chrono::milliseconds patience = std::chrono::seconds{60});
 
   std::string err() const;
 

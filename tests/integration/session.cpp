@@ -6,8 +6,9 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstring>
-#include <fstream>
+#include <functional>
 #include <sstream>
 #include <thread>
 #include <utility>
@@ -51,6 +52,16 @@ std::vector<std::string> cells_of(const std::string& line) {
   return cells;
 }
 
+bool eventually(const std::function<bool()>& condition) {
+  constexpr std::chrono::seconds kPatience{60};
+  const auto end = std::chrono::steady_clock::now() + kPatience;
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() > end) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds{20});
+  }
+  return true;
+}
+
 }  // namespace
 
 RunFiles::RunFiles(fs::path folder) : folder_(std::move(folder)) {
@@ -86,18 +97,18 @@ int RunFiles::count(const std::string& column, std::size_t first) const {
 
 Session::Session() {
   const auto* const test = testing::UnitTest::GetInstance()->current_test_info();
-  folder_ =
-      fs::path(testing::TempDir()) / ("cosight_integration_" + std::to_string(::getpid())) / test->name();
+  std::string name = "cosight_integration_" + std::to_string(::getpid()) + "_" + test->name();
+  std::replace(name.begin(), name.end(), '/', '_');
+  folder_ = fs::path(testing::TempDir()) / name;
   fs::remove_all(folder_);
   fs::create_directories(folder_);
   run_folder_ = folder_ / "run";
 }
 
 Session::~Session() {
-  std::error_code ignored;
   if (HasFailure()) return;  // its files say why
+  std::error_code ignored;
   fs::remove_all(folder_, ignored);
-  fs::remove(folder_.parent_path(), ignored);
 }
 
 Session::Process Session::robot(const fs::path& dataset, const Arguments& more) {
@@ -106,7 +117,8 @@ Session::Process Session::robot(const fs::path& dataset, const Arguments& more) 
 }
 
 Session::Process Session::wearer(const fs::path& dataset, const Arguments& more) {
-  return start(WEARABLE_AGENT, "wearer", {"--dataset", dataset.string(), "--wait-for-robot", "20"}, more);
+  return start(WEARABLE_AGENT, "wearer", {"--dataset", dataset.string(), "--set", "start.wait_for_robot=20"},
+               more);
 }
 
 Session::Process Session::start(const std::string& program, const std::string& name, Arguments arguments,
@@ -118,13 +130,11 @@ Session::Process Session::start(const std::string& program, const std::string& n
 }
 
 bool Session::robot_reaches(int frames) const {
-  constexpr std::chrono::milliseconds kSlice{20};
-  constexpr std::chrono::seconds kPatience{20};
-  for (auto waited = std::chrono::milliseconds{0}; waited < kPatience; waited += kSlice) {
-    if (run_files().frames().size() >= static_cast<std::size_t>(frames)) return true;
-    std::this_thread::sleep_for(kSlice);
-  }
-  return false;
+  return eventually([&] { return run_files().frames().size() >= static_cast<std::size_t>(frames); });
+}
+
+bool Session::says(const ChildProcess& process, const std::string& text) {
+  return eventually([&] { return process.err().find(text) != std::string::npos; });
 }
 
 }  // namespace cosight::integration

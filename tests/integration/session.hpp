@@ -69,6 +69,8 @@ class Session : public testing::Test {
 
   /// Until the robot's frames.csv has that many frames; false when it does not come to that.
   bool robot_reaches(int frames) const;
+  /// Until `text` stands on its stderr.
+  static bool says(const ChildProcess& process, const std::string& text);
 
  private:
   Process start(const std::string& program, const std::string& name, Arguments arguments,
