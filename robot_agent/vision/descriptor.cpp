@@ -181,7 +181,7 @@ class SurfExtractor final : public DescriptorExtractor {
       const Eigen::Vector2d pixel = pixels[i] - origin;
       if (!(pixel.x() >= 0.0 && pixel.y() >= 0.0 && pixel.x() < box.width && pixel.y() < box.height))
         continue;
-      points_.push_back({pixel, kScale, 0.0, 0.0, false});
+      points_.push_back(SurfPoint{pixel, kScale, 0.0, 0.0, false});
       sources.push_back(i);
     }
     DescribedFeatures described = describe_points(origin);
@@ -200,7 +200,7 @@ class SurfExtractor final : public DescriptorExtractor {
       SurfPoint& point = points_[i];
       if (!surf_.options().upright) point.angle = surf_.orientation(integral_, point);
       const SurfDescriptor descriptor = surf_.describe(integral_, point);
-      described.pixels.push_back(origin + point.pixel);
+      described.pixels.emplace_back(origin + point.pixel);
       described.vectors.row(static_cast<Eigen::Index>(i)) =
           Eigen::Map<const Eigen::RowVectorXf>(descriptor.data(), 64);
     }

@@ -206,7 +206,7 @@ std::optional<KnownPointsPose> estimate_pose_ransac(const CameraModel& camera,
   std::mt19937 random(options.seed);
   std::vector<bool> inliers;
   std::vector<bool> best_inliers;
-  Pose best_T_WC;
+  Pose T_WC_best;
   int best_count = 0;
   int limit = options.max_hypotheses;
   for (int hypothesis = 0; hypothesis < limit; ++hypothesis) {
@@ -220,14 +220,14 @@ std::optional<KnownPointsPose> estimate_pose_ransac(const CameraModel& camera,
       const int count = mark_inliers(camera, points, T_WC, options.max_error_px, inliers);
       if (count <= best_count) continue;
       best_count = count;
-      best_T_WC = T_WC;
+      T_WC_best = T_WC;
       best_inliers = inliers;
       limit = hypotheses_needed(count, n, options);
     }
   }
   const int needed = std::max(options.min_inliers, 4);
   if (best_count < needed) return std::nullopt;
-  auto refined = refine_pose(camera, points, best_inliers, best_T_WC, options);
+  auto refined = refine_pose(camera, points, best_inliers, T_WC_best, options);
   if (!refined) return std::nullopt;
   // A pose from three noisy points misses inliers that the refined one has.
   best_count = mark_inliers(camera, points, refined->T_WC.T, options.max_error_px, inliers);

@@ -51,7 +51,7 @@ Patch make_patch(const GrayLevels& gray, int side) {
   std::array<int, std::size_t{Patch::kMaxSide} * Patch::kMaxSide> rounded;
   for (int i = 0; i < n; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    rounded[k] = static_cast<int>(gray[k] + 0.5F);
+    rounded[k] = static_cast<int>(std::lround(gray[k]));
     total += rounded[k];
   }
   Patch patch;
@@ -92,7 +92,7 @@ void sample_grid(const Eigen::Vector2d& centre, const Eigen::Matrix2d& B, int si
 Patch sample(const Raster& raster, const Eigen::Vector2d& centre, const Eigen::Matrix2d& B, int side,
              bool oversample) {
   assert(side % 2 == 1 && side <= Patch::kMaxSide);
-  const double reach = side / 2 + 0.25;
+  const double reach = 0.5 * side;
   const Eigen::Vector2d extent = reach * B.cwiseAbs().rowwise().sum();
   GrayLevels gray;
   if (raster.holds(centre - extent) && raster.holds(centre + extent)) {

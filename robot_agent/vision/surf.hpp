@@ -95,8 +95,8 @@ class Surf {
   SurfOptions options_;
   std::array<Layer, kLayers> layers_;
   std::vector<SurfPoint> points_;
-  std::array<float, 9 * 9> region_weights_{};  ///< Gaussian over one region's samples
-  std::array<float, 16> grid_weights_{};       ///< Gaussian over the 4x4 regions
+  std::array<float, 81> region_weights_{};  ///< Gaussian over one region's 9x9 samples
+  std::array<float, 16> grid_weights_{};    ///< Gaussian over the 4x4 regions
 };
 
 }  // namespace cosight::vision

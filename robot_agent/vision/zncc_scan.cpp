@@ -240,7 +240,7 @@ double ZnccScan::score_at(const GrayImage& image, const Patch& patch, int x, int
 // term matters: along a slanted edge the peak is a slanted ridge.
 Eigen::Vector2d ZnccScan::refine(const GrayImage& image, const Patch& patch, const Peak& peak) {
   const int margin = patch.half() + 1;
-  const Eigen::Vector2d whole(peak.x, peak.y);
+  Eigen::Vector2d whole(peak.x, peak.y);
   if (peak.x < margin || peak.y < margin || peak.x > image.width - 1 - margin ||
       peak.y > image.height - 1 - margin) {
     return whole;

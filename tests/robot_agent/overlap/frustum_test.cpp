@@ -58,6 +58,7 @@ TEST_P(FrustumIntersection, HasExactlyTheExtremesOfTheSampledPoints) {
                   2.0 * Eigen::Vector3d(unit(random), unit(random), unit(random))};
   const std::vector<Eigen::Vector3d> corners = intersection_corners(to_body(a, Pose{}), to_body(b, T_AB));
   std::vector<Eigen::Vector3d> directions;
+  directions.reserve(20);
   for (int i = 0; i < 20; ++i)
     directions.emplace_back(unit(random), unit(random), unit(random));
   std::vector<double> sampled(directions.size(), -1e9);

@@ -48,7 +48,7 @@ std::vector<double> gray_levels(const Patch& patch) {
   std::vector<double> levels;
   for (int r = 0; r < patch.side; ++r) {
     for (int c = 0; c < patch.side; ++c) {
-      levels.push_back(patch.mean + patch.deviations[static_cast<std::size_t>(r * Patch::kStride + c)]);
+      levels.push_back(patch.mean + patch.deviations[index(r * Patch::kStride + c)]);
     }
   }
   return levels;
@@ -123,7 +123,7 @@ TEST(CorrelateRow, VectorVersionsEqualThePlainLoop) {
     for (auto& value : patch.deviations)
       value = static_cast<std::int16_t>(level(random));
     constexpr int kStride = 53;
-    std::vector<std::int16_t> window(kStride * 16);
+    std::vector<std::int16_t> window(index(kStride * 16));
     for (auto& value : window)
       value = static_cast<std::int16_t>(level(random));
     for (int count : {1, 2, 3, 4, 5, 8, 31}) {
@@ -201,7 +201,7 @@ TEST(ActiveSearch, SaysThatTwoPeaksLookAlike) {
 TEST(ActiveSearch, SaysWhyItFoundNothing) {
   const GrayImage image = SyntheticTexture(6).render(160, 120);
   const GrayImage other = SyntheticTexture(60).render(160, 120);
-  const GrayImage gray{160, 120, std::vector<std::uint8_t>(160 * 120, 90)};
+  const GrayImage gray{160, 120, std::vector<std::uint8_t>(19200, 90)};
   ActiveSearch search;
   const Eigen::Matrix2d S = 9.0 * Eigen::Matrix2d::Identity();
   const Eigen::Vector2d pixel(80, 60);

@@ -113,7 +113,7 @@ TEST_P(Descriptor, GivesTheSameForTheSameImage) {
 }
 
 TEST_P(Descriptor, FindsNothingInAFlatImage) {
-  const GrayImage gray{kWidth, kHeight, std::vector<std::uint8_t>(kWidth * kHeight, 100)};
+  const GrayImage gray{kWidth, kHeight, std::vector<std::uint8_t>(index(kWidth * kHeight), 100)};
   const auto extractor = make_descriptor_extractor(GetParam());
   EXPECT_EQ(extractor->detect_and_describe(gray, whole(), 100).size(), 0U);
   for (const Eigen::Vector2d& corner : {Eigen::Vector2d(0, 0), Eigen::Vector2d(kWidth - 1, kHeight - 1)}) {
@@ -127,7 +127,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, Descriptor,
 TEST(Surf, FindsABlobItsPlaceAndScale) {
   for (const double sigma : {2.5, 4.0, 6.5}) {
     const Eigen::Vector2d centre(100.3, 79.6);
-    GrayImage image{200, 160, std::vector<std::uint8_t>(200 * 160)};
+    GrayImage image{200, 160, std::vector<std::uint8_t>(32000)};
     for (int y = 0; y < 160; ++y) {
       for (int x = 0; x < 200; ++x) {
         const double r2 = (Eigen::Vector2d(x, y) - centre).squaredNorm();

@@ -3,11 +3,11 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
 #include <random>
 #include <vector>
 
+#include "robot_agent/vision/index.hpp"
 #include "shared/image/gray_image.hpp"
 
 namespace cosight::vision {
@@ -16,7 +16,8 @@ namespace cosight::vision {
 /// lattice cells. Defined between pixels too, so that it can be rendered from any view.
 class SyntheticTexture {
  public:
-  explicit SyntheticTexture(unsigned seed, double cell = 6.0) : cell_(cell), lattice_(kPeriod * kPeriod) {
+  explicit SyntheticTexture(unsigned seed, double cell = 6.0)
+      : cell_(cell), lattice_(index(kPeriod * kPeriod)) {
     std::mt19937 random(seed);
     for (double& value : lattice_)
       value = static_cast<double>(random()) / 4294967295.0;
@@ -32,7 +33,7 @@ class SyntheticTexture {
   /// The image whose pixel u shows the plane's point `to_plane(u)`; one sample a pixel.
   template <class ToPlane>
   GrayImage render(int width, int height, ToPlane to_plane) const {
-    GrayImage image{width, height, std::vector<std::uint8_t>(static_cast<std::size_t>(width * height))};
+    GrayImage image{width, height, std::vector<std::uint8_t>(index(width * height))};
     for (int y = 0; y < height; ++y) {
       for (int x = 0; x < width; ++x) {
         image.row(y)[x] = static_cast<std::uint8_t>(std::lround(at(to_plane(Eigen::Vector2d(x, y)))));
@@ -49,7 +50,7 @@ class SyntheticTexture {
   static constexpr int kPeriod = 512;
 
   double value(int x, int y) const {
-    return lattice_[static_cast<std::size_t>((y & (kPeriod - 1)) * kPeriod + (x & (kPeriod - 1)))];
+    return lattice_[index((y & (kPeriod - 1)) * kPeriod + (x & (kPeriod - 1)))];
   }
 
   double noise(const Eigen::Vector2d& point) const {
