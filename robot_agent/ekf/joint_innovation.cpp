@@ -76,7 +76,7 @@ double normalised_innovation_squared(const Eigen::Matrix3d& S_ii, const Eigen::V
 
 JointInnovation::JointInnovation(int state_capacity, int row_capacity)
     : g_(Eigen::VectorXd::Zero(row_capacity)),
-      P_Ht_(Eigen::MatrixXd::Zero(state_capacity, row_capacity)),
+      P_Ht_(Eigen::MatrixXd::Zero((state_capacity + 7) / 8 * 8, row_capacity)),
       S_(Eigen::MatrixXd::Zero(row_capacity, row_capacity)) {
   measurements_.reserve(static_cast<std::size_t>(row_capacity) / 2 + 1);
 }

@@ -49,7 +49,6 @@ class JointInnovation {
   auto P_Ht() const { return P_Ht_.topLeftCorner(state_size_, rows_); }
 
  private:
-  friend class CovarianceUpdate;
   void add_row_products(const GaussianState& state, const LinearisedMeasurement& measurement);
   void add_innovation_covariance(const LinearisedMeasurement& measurement);
 
@@ -57,7 +56,7 @@ class JointInnovation {
   int rows_ = 0;
   int state_size_ = 0;
   Eigen::VectorXd g_;
-  Eigen::MatrixXd P_Ht_;
+  Eigen::MatrixXd P_Ht_;  ///< rows in whole panels of eight
   Eigen::MatrixXd S_;
 };
 
