@@ -62,7 +62,8 @@ CollaborativeSlam::CollaborativeSlam(const CameraModel& camera_S, const SlamOpti
       compatibility_({options.search.gate_probability, 3}),
       search_(options.search),
       candidates_(options.candidates, options.search.pixel_sigma),
-      pseudo_stereo_(options.pseudo_stereo, options.search.pixel_sigma, options.map.min_distance_px),
+      pseudo_stereo_(options.pseudo_stereo, options.search.pixel_sigma),
+      new_points_(options.pseudo_stereo, options.map.min_distance_px),
       maintenance_(options.map),
       motion_prior_(options.seed),
       corners_(corner_options(options.map)) {
@@ -280,7 +281,7 @@ std::vector<std::optional<ekf::LandmarkId>> CollaborativeSlam::start_landmarks(
 
 int CollaborativeSlam::add_pseudo_stereo(const GrayImage& image, const StereoView& view, int places,
                                          PseudoStereoCounts& counts) {
-  const auto matches = pseudo_stereo_.find_new(view, image, tracks_.found_pixels(), places, counts);
+  const auto matches = new_points_.find(view, image, tracks_.found_pixels(), places, counts);
   const auto ids = start_landmarks(matches, view.rig);
   int added = 0;
   for (std::size_t i = 0; i < ids.size(); ++i) {

@@ -15,6 +15,7 @@
 #include "robot_agent/slam/landmark_tracks.hpp"
 #include "robot_agent/slam/map_maintenance.hpp"
 #include "robot_agent/slam/motion_prior.hpp"
+#include "robot_agent/slam/new_points.hpp"
 #include "robot_agent/slam/options.hpp"
 #include "robot_agent/slam/pseudo_stereo.hpp"
 #include "robot_agent/slam/stopwatch.hpp"
@@ -70,6 +71,7 @@ class CollaborativeSlam {
   LandmarkSearch search_;
   CandidatePool candidates_;
   PseudoStereo pseudo_stereo_;
+  NewPoints new_points_;
   MapMaintenance maintenance_;
   MotionPrior motion_prior_;
   vision::PointTracker tracker_;

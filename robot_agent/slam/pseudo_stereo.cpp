@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "robot_agent/ekf/triangulation.hpp"
 #include "robot_agent/vision/patch_warp.hpp"
@@ -12,23 +11,6 @@ namespace cosight::slam {
 namespace {
 
 constexpr int kPatchSide = 13;
-constexpr double kDegree = std::numbers::pi / 180.0;
-
-vision::SearchOptions band_search_options(const PseudoStereoOptions& options) {
-  vision::SearchOptions result;
-  result.n_sigmas = options.band_sigmas;
-  result.min_score = options.min_correlation;
-  result.max_half_window = options.max_band_radius;
-  result.max_second_ratio = options.max_ambiguity;
-  return result;
-}
-
-vision::CornerOptions corner_options(int min_distance_px) {
-  vision::CornerOptions result;
-  result.min_distance = min_distance_px;
-  return result;
-}
-
 /// Where Cf should see a point of S, and how surely.
 struct WearerPrediction {
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
@@ -58,25 +40,17 @@ std::optional<WearerPrediction> predict_in_wearer(const ekf::StereoRig& rig,
 
 }  // namespace
 
-std::optional<UncertainPose> wearer_pose(const WearerView& wearer, const UncertainPose& T_WS) {
-  if (wearer.has_orientation) return wearer.T_SF;
-  if (!wearer.q_WF) return std::nullopt;
-  const Eigen::Matrix3d R_SW = T_WS.T.q.conjugate().toRotationMatrix();
-  UncertainPose T_SF = wearer.T_SF;
-  T_SF.T.q = (T_WS.T.q.conjugate() * *wearer.q_WF).normalized();
-  T_SF.covariance.bottomRows<3>().setZero();
-  T_SF.covariance.rightCols<3>().setZero();
-  T_SF.covariance.bottomRightCorner<3, 3>() =
-      R_SW * (wearer.q_WF_covariance + T_WS.covariance.bottomRightCorner<3, 3>()) * R_SW.transpose();
-  return T_SF;
+vision::SearchOptions band_search_options(const PseudoStereoOptions& options) {
+  vision::SearchOptions result;
+  result.n_sigmas = options.band_sigmas;
+  result.min_score = options.min_correlation;
+  result.max_half_window = options.max_band_radius;
+  result.max_second_ratio = options.max_ambiguity;
+  return result;
 }
 
-PseudoStereo::PseudoStereo(const PseudoStereoOptions& options, double pixel_sigma, int min_distance_px)
-    : options_(options),
-      pixel_sigma_(pixel_sigma),
-      search_(band_search_options(options)),
-      band_search_(band_search_options(options)),
-      corners_(corner_options(min_distance_px)) {}
+PseudoStereo::PseudoStereo(const PseudoStereoOptions& options, double pixel_sigma)
+    : options_(options), pixel_sigma_(pixel_sigma), search_(band_search_options(options)) {}
 
 std::vector<ekf::Measurement> PseudoStereo::measure(const std::optional<StereoView>& view,
                                                     const GrayImage* image_S,
@@ -118,71 +92,11 @@ std::optional<ekf::PointMeasurement> PseudoStereo::measure_point(const StereoVie
   }
   const ekf::StereoMatch pixels{sighting.pixel, match.pixel};
   const auto point = ekf::triangulate(pixels, view.rig.camera_S, view.rig.camera_F, view.rig.T_SF.T);
-  if (!point || !has_depth(*point, view.rig)) {
+  if (!point || !has_depth(*point, view.rig, options_)) {
     ++counts.too_little_parallax;
     return std::nullopt;
   }
   return ekf::measure_point(pixels, view.rig);
-}
-
-std::vector<ekf::StereoMatch> PseudoStereo::find_new(const StereoView& view, const GrayImage& image_S,
-                                                     const std::vector<Eigen::Vector2d>& occupied, int wanted,
-                                                     PseudoStereoCounts& counts) {
-  std::vector<ekf::StereoMatch> matches;
-  if (wanted <= 0) return matches;
-  constexpr int kTriesPerMatch = 2;
-  for (const vision::Corner& corner :
-       corners_.detect(image_S, occupied, kTriesPerMatch * wanted, &view.overlap.roi_in_S)) {
-    if (static_cast<int>(matches.size()) == wanted) break;
-    if (contains(view.silhouette, corner.pixel)) continue;
-    if (const auto match = match_corner(view, image_S, corner.pixel, counts)) matches.push_back(*match);
-  }
-  return matches;
-}
-
-std::optional<ekf::StereoMatch> PseudoStereo::match_corner(const StereoView& view, const GrayImage& image_S,
-                                                           const Eigen::Vector2d& pixel_S,
-                                                           PseudoStereoCounts& counts) {
-  ++counts.described;
-  const ekf::StereoRig& rig = view.rig;
-  vision::EpipolarOptions band_options;
-  band_options.n_sigmas = options_.band_sigmas;
-  band_options.sigma_pixel_S = rig.sigma_pixel_S;
-  band_options.sigma_pixel_F = rig.sigma_pixel_F;
-  band_options.max_half_width = options_.max_band_radius;
-  const auto range = vision::InverseDistanceRange::between(options_.near, view.overlap.far_depth);
-  const auto band =
-      vision::EpipolarBand::predict(rig.camera_S, rig.camera_F, rig.T_SF, pixel_S, range, band_options);
-  if (!band) {
-    ++counts.epipolar;
-    return std::nullopt;
-  }
-  const vision::ReferencePatch patch = vision::cut_reference(image_S, pixel_S);
-  const vision::View slam{rig.camera_S, Pose{}};
-  const auto match =
-      band_search_.find(*view.image_F, {patch, slam, slam, {rig.camera_F, rig.T_SF.T}, pixel_S}, *band);
-  if (!match) {
-    ++counts.ratio_test;
-    return std::nullopt;
-  }
-  const ekf::StereoMatch pixels{pixel_S, match.pixel};
-  const auto point = ekf::triangulate(pixels, rig.camera_S, rig.camera_F, rig.T_SF.T);
-  if (!point || !has_depth(*point, rig)) {
-    ++counts.too_little_parallax;
-    return std::nullopt;
-  }
-  return pixels;
-}
-
-bool PseudoStereo::has_depth(const ekf::StereoPoint& point, const ekf::StereoRig& rig) const {
-  if (point.parallax < options_.min_parallax_deg * kDegree) return false;
-  const Eigen::Vector4d pixel_variances(
-      rig.sigma_pixel_S * rig.sigma_pixel_S, rig.sigma_pixel_S * rig.sigma_pixel_S,
-      rig.sigma_pixel_F * rig.sigma_pixel_F, rig.sigma_pixel_F * rig.sigma_pixel_F);
-  const double variance =
-      point.rho_pixels.cwiseAbs2().dot(pixel_variances) +
-      point.rho_pose * position_quaternion_covariance(rig.T_SF) * point.rho_pose.transpose();
-  return std::sqrt(variance) < options_.max_relative_depth_sigma * point.rho;
 }
 
 PseudoStereoOutcome outcome_of(const PseudoStereoCounts& counts) {

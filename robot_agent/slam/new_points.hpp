@@ -1,0 +1,53 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "robot_agent/ekf/triangulation.hpp"
+#include "robot_agent/frame_estimate.hpp"
+#include "robot_agent/slam/options.hpp"
+#include "robot_agent/slam/stereo_view.hpp"
+#include "robot_agent/vision/active_search.hpp"
+#include "robot_agent/vision/band_search.hpp"
+#include "robot_agent/vision/corner_detector.hpp"
+#include "robot_agent/vision/descriptor.hpp"
+#include "robot_agent/vision/epipolar_band.hpp"
+
+namespace cosight::slam {
+
+/// New points that both cameras see, inside the overlap (C section 2): corners of Cs by ZNCC along their
+/// epipolar band, or features of both by descriptors that compete within the band.
+class NewPoints {
+ public:
+  NewPoints(const PseudoStereoOptions& options, int min_distance_px);
+
+  /// At most `wanted`, away from the `occupied` pixels of Cs and from each other.
+  std::vector<ekf::StereoMatch> find(const StereoView& view, const GrayImage& image_S,
+                                     const std::vector<Eigen::Vector2d>& occupied, int wanted,
+                                     PseudoStereoCounts& counts);
+
+ private:
+  std::vector<ekf::StereoMatch> find_by_band(const StereoView& view, const GrayImage& image_S,
+                                             const std::vector<Eigen::Vector2d>& occupied, int wanted,
+                                             PseudoStereoCounts& counts);
+  std::vector<ekf::StereoMatch> find_by_descriptors(const StereoView& view, const GrayImage& image_S,
+                                                    std::vector<Eigen::Vector2d> occupied, int wanted,
+                                                    PseudoStereoCounts& counts);
+  std::optional<vision::EpipolarBand> band_of(const StereoView& view, const Eigen::Vector2d& pixel_S) const;
+  std::optional<ekf::StereoMatch> match_corner(const StereoView& view, const GrayImage& image_S,
+                                               const Eigen::Vector2d& pixel_S, PseudoStereoCounts& counts);
+  std::optional<ekf::StereoMatch> refine(const StereoView& view, const GrayImage& image_S,
+                                         const ekf::StereoMatch& rough, PseudoStereoCounts& counts);
+  bool accept(const StereoView& view, const ekf::StereoMatch& match, PseudoStereoCounts& counts) const;
+
+  PseudoStereoOptions options_;
+  int min_distance_px_;
+  vision::CornerDetector corners_;
+  vision::BandSearch band_search_;
+  vision::ActiveSearch refinement_;
+  std::unique_ptr<vision::DescriptorExtractor> extractor_;  ///< null: by band
+};
+
+}  // namespace cosight::slam

@@ -1,0 +1,33 @@
+#include "robot_agent/slam/stereo_view.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace cosight::slam {
+
+std::optional<UncertainPose> wearer_pose(const WearerView& wearer, const UncertainPose& T_WS) {
+  if (wearer.has_orientation) return wearer.T_SF;
+  if (!wearer.q_WF) return std::nullopt;
+  const Eigen::Matrix3d R_SW = T_WS.T.q.conjugate().toRotationMatrix();
+  UncertainPose T_SF = wearer.T_SF;
+  T_SF.T.q = (T_WS.T.q.conjugate() * *wearer.q_WF).normalized();
+  T_SF.covariance.bottomRows<3>().setZero();
+  T_SF.covariance.rightCols<3>().setZero();
+  T_SF.covariance.bottomRightCorner<3, 3>() =
+      R_SW * (wearer.q_WF_covariance + T_WS.covariance.bottomRightCorner<3, 3>()) * R_SW.transpose();
+  return T_SF;
+}
+
+bool has_depth(const ekf::StereoPoint& point, const ekf::StereoRig& rig, const PseudoStereoOptions& options) {
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  if (point.parallax < options.min_parallax_deg * kDegree) return false;
+  const Eigen::Vector4d pixel_variances(
+      rig.sigma_pixel_S * rig.sigma_pixel_S, rig.sigma_pixel_S * rig.sigma_pixel_S,
+      rig.sigma_pixel_F * rig.sigma_pixel_F, rig.sigma_pixel_F * rig.sigma_pixel_F);
+  const double variance =
+      point.rho_pixels.cwiseAbs2().dot(pixel_variances) +
+      point.rho_pose * position_quaternion_covariance(rig.T_SF) * point.rho_pose.transpose();
+  return std::sqrt(variance) < options.max_relative_depth_sigma * point.rho;
+}
+
+}  // namespace cosight::slam

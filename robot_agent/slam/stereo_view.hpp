@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+
+#include "robot_agent/ekf/triangulation.hpp"
+#include "robot_agent/frame_bundle.hpp"
+#include "robot_agent/frame_estimate.hpp"
+#include "robot_agent/slam/options.hpp"
+#include "shared/geometry/convex_polygon.hpp"
+
+namespace cosight::slam {
+
+/// One frame of the wearer's camera, ready to be measured against: the views overlap.
+struct StereoView {
+  const GrayImage* image_F = nullptr;
+  ekf::StereoRig rig;
+  OverlapEstimate overlap;
+  ConvexPolygon silhouette;  ///< the wearer's own body in Cs [px]: nothing inside is used
+};
+
+/// T_SF of a worn view; its orientation from the AHRS where only a position is given:
+/// R_SF = R_WS^T R_WF, with the errors of both in the axes of S. Nothing without any orientation.
+std::optional<UncertainPose> wearer_pose(const WearerView& wearer, const UncertainPose& T_WS);
+
+/// Enough parallax, and a depth that is known well enough by the eleven uncertain inputs (C section 3.2).
+bool has_depth(const ekf::StereoPoint& point, const ekf::StereoRig& rig, const PseudoStereoOptions& options);
+
+}  // namespace cosight::slam
