@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "robot_agent/slam/stopwatch.hpp"
 #include "robot_agent/slam/wearer_silhouette.hpp"
@@ -49,6 +50,16 @@ double usual_depth(const std::vector<ekf::PixelPrediction>& predictions) {
   const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
   std::nth_element(depths.begin(), middle, depths.end());
   return *middle;
+}
+
+/// Half of the nearest landmark's depth [m], 0 without any: a band that goes on to the lens would cost ten
+/// times as much, for points that the next frames see anyway.
+double expected_near(const std::vector<ekf::PixelPrediction>& predictions) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const auto& prediction : predictions) {
+    if (prediction.depth > 0.0) nearest = std::min(nearest, prediction.depth);
+  }
+  return std::isfinite(nearest) ? 0.5 * nearest : 0.0;
 }
 
 }  // namespace
@@ -163,6 +174,7 @@ std::optional<StereoView> CollaborativeSlam::wearer_view(const FrameBundle& bund
   view.rig = {filter_.camera_model(), bundle.wearer->camera, *T_SF, options_.search.pixel_sigma,
               options_.pseudo_stereo.wearer_pixel_sigma};
   view.overlap = estimate.overlap;
+  view.near = std::max(options_.pseudo_stereo.near, expected_near(search_.predictions()));
   view.silhouette = silhouette_;
   return view;
 }

@@ -29,6 +29,9 @@ class LandmarkSearch {
   /// Landmarks predicted inside the image, the least certain first: they tell most.
   const std::vector<ekf::PixelPrediction>& predict(const ekf::Filter& filter, const LandmarkTracks& tracks);
 
+  /// Of the last `predict`.
+  const std::vector<ekf::PixelPrediction>& predictions() const { return predictions_; }
+
   /// Looks for the predicted ones, at most `max_measured`. `known_motion`: the camera's pose is already known
   /// from the images themselves, so that only a few pixels around each prediction are left to search.
   /// `hidden`: not looked for inside.

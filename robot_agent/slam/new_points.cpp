@@ -106,7 +106,8 @@ std::optional<vision::EpipolarBand> NewPoints::band_of(const StereoView& view,
   band.sigma_pixel_S = view.rig.sigma_pixel_S;
   band.sigma_pixel_F = view.rig.sigma_pixel_F;
   band.max_half_width = options_.max_band_radius;
-  const auto range = vision::InverseDistanceRange::between(options_.near, view.overlap.far_depth);
+  const auto range = vision::InverseDistanceRange::between(std::min(view.near, 0.5 * view.overlap.far_depth),
+                                                           view.overlap.far_depth);
   return vision::EpipolarBand::predict(view.rig.camera_S, view.rig.camera_F, view.rig.T_SF, pixel_S, range,
                                        band);
 }

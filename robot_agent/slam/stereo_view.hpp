@@ -15,6 +15,7 @@ struct StereoView {
   const GrayImage* image_F = nullptr;
   ekf::StereoRig rig;
   OverlapEstimate overlap;
+  double near = 0.3;         ///< nothing nearer to Cs is looked for [m]
   ConvexPolygon silhouette;  ///< the wearer's own body in Cs [px]: nothing inside is used
 };
 
