@@ -50,17 +50,32 @@ void refuse_unknown(const ConfigTree& section) {
   }
 }
 
-void write_resolved(const ConfigTree& section, int depth, std::string& out) {
-  for (const auto& node : section.children) {
-    if (!node->known || (node->kind == ConfigTree::Kind::kList && node->read_as.empty())) continue;
-    const std::string line = std::string(static_cast<std::size_t>(2 * depth), ' ') + node->key + ":";
-    if (!node->read_as.empty()) {
-      out += line + " " + node->read_as + "\n";
-      continue;
-    }
+void write_resolved(const ConfigTree& section, std::size_t indent, std::string& out);
+
+/// The sections of a list: indented like a section of its own, with a dash before the first key.
+void write_resolved_list(const ConfigTree& list, std::size_t indent, std::string& out) {
+  for (const auto& section : list.children) {
     std::string inner;
-    write_resolved(*node, depth + 1, inner);
-    if (!inner.empty()) out += line + "\n" + inner;
+    write_resolved(*section, indent + 2, inner);
+    if (inner.empty()) inner = std::string(indent + 2, ' ') + "{}\n";
+    inner[indent] = '-';
+    out += inner;
+  }
+}
+
+void write_resolved(const ConfigTree& section, std::size_t indent, std::string& out) {
+  for (const auto& node : section.children) {
+    if (!node->known) continue;
+    std::string value;
+    if (!node->read_as.empty()) {
+      value = ' ' + node->read_as + '\n';
+    } else {
+      const bool is_list = node->kind == ConfigTree::Kind::kList;
+      (is_list ? write_resolved_list : write_resolved)(*node, indent + 2, value);
+      if (value.empty()) continue;
+      value.insert(0, 1, '\n');
+    }
+    out.append(indent, ' ').append(node->key).append(1, ':').append(value);
   }
 }
 
@@ -85,16 +100,16 @@ ConfigFile ConfigFile::load(const std::filesystem::path& file, const std::vector
     throw ConfigError(file.string() + ": can't be read; check the path");
   }
   auto tree = parse_config_tree(text.str(), file.string(), file.parent_path());
-  for (const auto& override_ : overrides)
-    apply_override(*tree, override_);
+  for (const auto& replacement : overrides)
+    apply_override(*tree, replacement);
   return ConfigFile(std::move(tree));
 }
 
 ConfigFile ConfigFile::parse(const std::string& yaml, const std::string& name,
                              const std::vector<ConfigOverride>& overrides) {
   auto tree = parse_config_tree(yaml, name, {});
-  for (const auto& override_ : overrides)
-    apply_override(*tree, override_);
+  for (const auto& replacement : overrides)
+    apply_override(*tree, replacement);
   return ConfigFile(std::move(tree));
 }
 

@@ -124,21 +124,21 @@ std::shared_ptr<ConfigTree> parse_config_tree(const std::string& yaml, const std
   return tree;
 }
 
-void apply_override(ConfigTree& root, const ConfigOverride& override_) {
-  ConfigTree& section = parent_section(root, override_.key, override_.origin);
-  const std::string key = override_.key.substr(override_.key.rfind('.') + 1);
-  if (key.empty()) throw ConfigError(override_.origin + ": " + override_.key + " is no key");
+void apply_override(ConfigTree& root, const ConfigOverride& replacement) {
+  ConfigTree& section = parent_section(root, replacement.key, replacement.origin);
+  const std::string key = replacement.key.substr(replacement.key.rfind('.') + 1);
+  if (key.empty()) throw ConfigError(replacement.origin + ": " + replacement.key + " is no key");
   auto value = std::make_shared<ConfigTree>();
-  if (override_.plain_text) {
+  if (replacement.plain_text) {
     value->key = key;
     value->kind = ConfigTree::Kind::kScalar;
-    value->scalar = override_.value;
-    value->dotted = override_.key;
+    value->scalar = replacement.value;
+    value->dotted = replacement.key;
   } else {
-    value = parse(override_.value, {.name = override_.origin, .folder = {}, .has_lines = false}, key,
-                  override_.key);
+    value = parse(replacement.value, {.name = replacement.origin, .folder = {}, .has_lines = false}, key,
+                  replacement.key);
   }
-  value->origin = override_.origin;
+  value->origin = replacement.origin;
   for (auto& node : section.children) {
     if (node->key == key) {
       node = std::move(value);

@@ -37,6 +37,6 @@ struct ConfigTree {
 std::shared_ptr<ConfigTree> parse_config_tree(const std::string& yaml, const std::string& name,
                                               const std::filesystem::path& folder);
 
-void apply_override(ConfigTree& root, const ConfigOverride& override_);
+void apply_override(ConfigTree& root, const ConfigOverride& replacement);
 
 }  // namespace cosight

@@ -62,7 +62,7 @@ std::filesystem::path calibration_of(const InputOptions& options) {
   if (!options.calibration.empty()) return options.calibration;
   for (const char* beside :
        {"mav0/cam0/sensor.yaml", "cam0/sensor.yaml", "sensor.yaml", "calibration.yaml"}) {
-    const auto file = options.images / beside;
+    auto file = options.images / beside;
     if (!options.images.empty() && std::filesystem::exists(file)) return file;
   }
   throw ConfigError("input.calibration: is missing; give the yaml file with the camera's calibration");

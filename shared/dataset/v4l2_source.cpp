@@ -36,7 +36,7 @@ void gray_of_yuyv(const std::uint8_t* yuyv, int width, int height, std::size_t b
   for (int y = 0; y < height; ++y) {
     const std::uint8_t* const packed = yuyv + static_cast<std::size_t>(y) * bytes_per_row;
     std::uint8_t* const gray = image.row(y);
-    for (int x = 0; x < width; ++x)
+    for (std::size_t x = 0; x < static_cast<std::size_t>(width); ++x)
       gray[x] = packed[2 * x];
   }
 }

@@ -203,6 +203,22 @@ TEST(Config, PathsStartFromTheFileOrTheWorkingFolder) {
               HasSubstr("a.yaml:5: no: $NOT_SET_X is not set"));
 }
 
+TEST(Config, ResolvedTextKeepsListsOfSections) {
+  const auto read = [](const ConfigFile& file) {
+    std::vector<int> widths;
+    for (const auto& scene : file.root().section("world").sections("scenes")) {
+      widths.push_back(scene.integer("width", 5));
+      widths.push_back(scene.section("inner").integer("height", 6));
+    }
+    return widths;
+  };
+  const ConfigFile file =
+      ConfigFile::parse("world: {scenes: [{width: 1}, {}, {inner: {height: 2}}]}", "a.yaml");
+  const auto first = read(file);
+  EXPECT_THAT(first, ElementsAre(1, 6, 5, 6, 5, 2));
+  EXPECT_EQ(read(ConfigFile::parse(file.resolved(), "resolved")), first) << file.resolved();
+}
+
 TEST(Config, ResolvedTextReadsBackAsTheSameConfiguration) {
   const auto read = [](const ConfigFile& file) {
     const ConfigNode slam = file.root().section("slam");
