@@ -19,6 +19,7 @@ constexpr int kOverwrite = O_WRONLY | O_CREAT | O_TRUNC;
 
 std::vector<char*> argv_of(std::vector<std::string>& words) {
   std::vector<char*> argv;
+  argv.reserve(words.size() + 1);
   for (std::string& word : words)
     argv.push_back(word.data());
   argv.push_back(nullptr);
