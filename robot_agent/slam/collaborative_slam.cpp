@@ -136,7 +136,7 @@ bool CollaborativeSlam::advance_to(const FrameBundle& bundle) {
 
 void CollaborativeSlam::see_wearer(const FrameBundle& bundle) {
   silhouette_.clear();
-  if (!bundle.wearer) return;
+  if (!bundle.wearer || !may_use_wearer(bundle.stamp)) return;
   silhouette_ = wearer_silhouette(filter_.camera_model(), filter_.camera().T_WS(), bundle.wearer->T_SF.T,
                                   options_.body);
 }
@@ -297,7 +297,10 @@ int CollaborativeSlam::add_pseudo_stereo(const GrayImage& image, const StereoVie
   const auto ids = start_landmarks(matches, view.rig);
   int added = 0;
   for (std::size_t i = 0; i < ids.size(); ++i) {
-    if (!ids[i]) continue;
+    if (!ids[i]) {
+      ++(filter_.has_room() ? counts.too_little_parallax : counts.redundant);
+      continue;
+    }
     LandmarkTrack track;
     track.id = *ids[i];
     track.reference = vision::cut_reference(image, matches[i].pixel_S);

@@ -66,7 +66,7 @@ struct PseudoStereoOptions {
   /// if independent (the paper).
   bool correlated_updates = true;
   /// The same for the landmarks that start in one frame. Off: a scale that hangs on one uncertain pose alone
-  /// is the direction in which an EKF drifts (docs/decisions/0004).
+  /// is the direction in which an EKF drifts (docs/decisions/0005).
   bool correlated_starts = false;
   int max_new_landmarks = 12;  ///< started from one frame
 };
