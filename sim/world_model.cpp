@@ -1,5 +1,7 @@
 #include "sim/world_model.hpp"
 
+#include <utility>
+
 namespace cosight::sim {
 namespace {
 
@@ -23,7 +25,7 @@ World::World(const Scenario& scenario, std::uint64_t seed)
 }
 
 World::PasserBy::PasserBy(PersonFigure dressed, const PathPlan& plan, std::uint64_t seed)
-    : figure(dressed), path(plan), motion(WearerPlan{}, path, seed) {}
+    : figure(std::move(dressed)), path(plan), motion(WearerPlan{}, path, seed) {}
 
 void World::set_wearer(const WearerPlan& plan) {
   wearer_.set_plan(plan);

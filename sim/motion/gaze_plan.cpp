@@ -1,6 +1,7 @@
 #include "sim/motion/gaze_plan.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 
 #include "sim/random.hpp"
@@ -10,8 +11,7 @@ namespace cosight::sim {
 std::vector<Keyframe> glances(const GazePlan& plan, double share, double duration, std::uint64_t seed) {
   RandomStream random(seed, "glances");
   std::vector<double> pauses;
-  for (int k = 0; k < plan.intervals; ++k)
-    pauses.push_back(random.uniform(0.5, 1.5));
+  std::generate_n(std::back_inserter(pauses), plan.intervals, [&] { return random.uniform(0.5, 1.5); });
   const double pause_sum = std::accumulate(pauses.begin(), pauses.end(), 0.0);
   const double look = share * duration / plan.intervals;
   double side = random.chance(0.5) ? 1.0 : -1.0;

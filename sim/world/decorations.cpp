@@ -59,10 +59,11 @@ void draw_photograph(cv::Mat sheet, RandomStream& random) {
   cv::Mat noise =
       multi_scale_noise(sheet.size(), 0.5 * sheet.cols, random) * 50.0 + random.uniform(80.0, 160.0);
   noise.convertTo(sheet, CV_8U);
-  for (int k = 0; k < 4 + random.below(6); ++k) {
-    std::vector<cv::Point> corners;
-    for (int c = 0; c < 3 + random.below(3); ++c)
-      corners.emplace_back(random.below(sheet.cols), random.below(sheet.rows));
+  const int shapes = 4 + random.below(6);
+  for (int k = 0; k < shapes; ++k) {
+    std::vector<cv::Point> corners(static_cast<std::size_t>(3 + random.below(3)));
+    for (cv::Point& corner : corners)
+      corner = {random.below(sheet.cols), random.below(sheet.rows)};
     const double gray = random.uniform(15.0, 245.0);
     if (random.chance(0.35)) {
       cv::circle(sheet, corners[0], 2 + random.below(std::max(1, sheet.cols / 5)), gray, cv::FILLED,
@@ -84,7 +85,8 @@ void hang_notice_board(Wall& wall, double x, RandomStream& random) {
       wall.rect(x, random.uniform(0.85, 1.1), random.uniform(1.0, 1.6), random.uniform(0.8, 1.1));
   wall.fill(board, random.uniform(85.0, 120.0));
   cv::rectangle(wall.picture(), board, 45, 3);
-  for (int k = 0; k < 7 + random.below(8); ++k) {
+  const int sheets = 7 + random.below(8);
+  for (int k = 0; k < sheets; ++k) {
     const cv::Rect sheet(board.x + random.below(std::max(1, board.width)),
                          board.y + random.below(std::max(1, board.height)),
                          board.width / 7 + random.below(std::max(1, board.width / 8)),
@@ -115,33 +117,39 @@ void set_door(Wall& wall, double x, RandomStream& random) {
   draw_text(wall.picture(), sign, 20.0, random);
 }
 
+/// Books of all thicknesses, one after the other from `x` to `end`.
+void set_books(Wall& wall, double x, double end, double bottom, RandomStream& random) {
+  while (x < end) {
+    const double thickness = random.uniform(0.02, 0.06);
+    const cv::Rect spine = wall.rect(x, bottom, thickness, random.uniform(0.2, 0.33));
+    if (random.chance(0.9)) wall.fill(spine, random.uniform(30.0, 240.0));
+    if (random.chance(0.5) && spine.height > 8) {
+      const int third = spine.height / 3;
+      wall.fill({spine.x, spine.y + third, spine.width, std::max(1, third / 2)}, random.uniform(20.0, 250.0));
+    }
+    x += thickness;
+  }
+}
+
 void set_shelf(Wall& wall, double x, RandomStream& random) {
   const double width = random.uniform(0.8, 1.5);
   wall.fill(wall.rect(x, 0.1, width, 1.9), 55.0);
-  for (double bottom = 0.14; bottom < 1.9; bottom += 0.37) {
-    for (double book = x + 0.03; book < x + width - 0.06;) {
-      const double thickness = random.uniform(0.02, 0.06);
-      const cv::Rect spine = wall.rect(book, bottom, thickness, random.uniform(0.2, 0.33));
-      if (random.chance(0.9)) wall.fill(spine, random.uniform(30.0, 240.0));
-      if (random.chance(0.5) && spine.height > 8) {
-        const int third = spine.height / 3;
-        wall.fill({spine.x, spine.y + third, spine.width, std::max(1, third / 2)},
-                  random.uniform(20.0, 250.0));
-      }
-      book += thickness;
-    }
+  for (int board = 0; board < 5; ++board) {
+    const double bottom = 0.14 + 0.37 * board;
+    set_books(wall, x + 0.03, x + width - 0.06, bottom, random);
     wall.fill(wall.rect(x, bottom - 0.03, width, 0.025), 150.0);
   }
 }
 
 void set_small_things(Wall& wall, double density, RandomStream& random) {
-  for (double x = random.uniform(0.2, 1.0); x < wall.length();
-       x += random.uniform(0.7, 2.2) / std::max(0.15, density)) {
+  double x = random.uniform(0.2, 1.0);
+  while (x < wall.length()) {
     const double bottom = random.chance(0.5) ? random.uniform(0.25, 0.35) : random.uniform(1.05, 2.3);
     const cv::Rect plate = wall.rect(x, bottom, random.uniform(0.06, 0.16), random.uniform(0.06, 0.12));
     wall.fill(plate, random.uniform(200.0, 240.0));
     if (plate.area() > 0) cv::rectangle(wall.picture(), plate, 70, 1);
     wall.fill(wall.rect(x + 0.02, bottom + 0.02, 0.025, 0.03), 60.0);
+    x += random.uniform(0.7, 2.2) / std::max(0.15, density);
   }
 }
 

@@ -15,9 +15,12 @@ constexpr double kStep = 0.2;   // [m] between the points at which the light is 
 }  // namespace
 
 Lighting::Lighting(const Eigen::Vector2d& low, const Eigen::Vector2d& high, double height, double spacing) {
-  for (double x = low.x() + 0.5 * spacing; x < high.x(); x += spacing) {
-    for (double y = low.y() + 0.5 * spacing; y < high.y(); y += spacing)
-      lamps_.emplace_back(x, y, height);
+  const auto count = [&](double length) { return static_cast<int>(std::ceil(length / spacing - 0.5)); };
+  const Eigen::Vector2d size = high - low;
+  for (int row = 0; row < count(size.y()); ++row) {
+    for (int column = 0; column < count(size.x()); ++column) {
+      lamps_.emplace_back(low.x() + (column + 0.5) * spacing, low.y() + (row + 0.5) * spacing, height);
+    }
   }
 }
 

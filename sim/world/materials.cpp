@@ -181,7 +181,8 @@ cv::Mat paint_float(Material material, const cv::Size& size, double texel, Rando
 cv::Mat multi_scale_noise(const cv::Size& size, double coarsest, RandomStream& random) {
   cv::Mat sum = cv::Mat::zeros(size, CV_32F);
   double weight = 0.5;
-  for (double blob = std::max(2.0, coarsest); blob >= 1.5; blob *= 0.5, weight *= 0.75) {
+  double blob = std::max(2.0, coarsest);
+  while (blob >= 1.5) {
     cv::Mat coarse(static_cast<int>(size.height / blob) + 3, static_cast<int>(size.width / blob) + 3, CV_32F);
     opencv_random(random).fill(coarse, cv::RNG::NORMAL, 0.0, weight);
     cv::Mat fine;
@@ -189,6 +190,8 @@ cv::Mat multi_scale_noise(const cv::Size& size, double coarsest, RandomStream& r
     const cv::Point corner(random.below(std::max(1, fine.cols - size.width)),
                            random.below(std::max(1, fine.rows - size.height)));
     sum += fine(cv::Rect(corner, size));
+    blob *= 0.5;
+    weight *= 0.75;
   }
   return sum;
 }

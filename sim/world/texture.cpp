@@ -70,10 +70,12 @@ Texture::Filter Texture::filter_for(const Footprint& f) const {
   const float area = std::abs(f.du_dx * f.dv_dy - f.du_dy * f.dv_dx);
   Filter filter;
   // The short axis is area / long axis; one tap covers the short axis, so their ratio is the number of taps.
-  filter.taps = static_cast<int>(std::clamp(long_squared / std::max(area, 1e-6F) + 0.5F, 1.0F, kMaxTaps));
+  filter.taps =
+      1 + static_cast<int>(std::clamp(long_squared / std::max(area, 1e-6F) - 0.5F, 0.0F, kMaxTaps - 1.0F));
   const auto count = static_cast<float>(filter.taps);
-  const float lod = half_log2(std::max(1.0F, long_squared / (count * count)));
-  filter.level = std::min(static_cast<int>(lod + 0.5F), static_cast<int>(levels_.size()) - 1);
+  // The nearest level: half a level up, cut off.
+  const float nearest = half_log2(2.0F * std::max(1.0F, long_squared / (count * count)));
+  filter.level = std::min(static_cast<int>(nearest), static_cast<int>(levels_.size()) - 1);
   const GrayImage& image = levels_[static_cast<std::size_t>(filter.level)];
   filter.u_scale = static_cast<float>(kOne * image.width) / static_cast<float>(width());
   filter.v_scale = static_cast<float>(kOne * image.height) / static_cast<float>(height());
