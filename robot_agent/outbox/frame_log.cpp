@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "shared/evaluation/number_text.hpp"
+#include "shared/dataset/number_text.hpp"
 #include "shared/geometry/convex_polygon.hpp"
 
 namespace cosight::outbox {
