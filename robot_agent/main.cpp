@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "robot_agent/robot_agent.hpp"
+#include "shared/program/agent_options.hpp"
 #include "shared/program/program.hpp"
 #include "shared/program/status_line.hpp"
 
@@ -36,17 +37,9 @@ int main(int argc, char** argv) {
            "  robot_agent --dataset build/demo/dataset\n"
            "  robot_agent --dataset build/demo/dataset --mode mono --run-dir runs/mono\n"
            "  robot_agent --config config/robot.yaml --device /dev/video0 --calibration camera.yaml\n"});
-  program.option("--dataset", "input.dataset", "Cosight dataset folder")
-      .option("--images", "input.images",
-              "csv, EuRoC or KITTI folder, or a plain folder with --set input.rate_hz")
-      .option("--video", "input.video", "video file")
-      .option("--device", "input.device", "V4L2 camera, such as /dev/video0")
-      .option("--calibration", "input.calibration", "the camera's yaml file")
+  add_agent_options(program)
       .option("--mode", "slam.mode", "collaborative, or mono: without the wearer once the scale is set")
       .option("--run-dir", "run_dir", "folder for trajectory, map, log and summary")
-      .option("--rate", "replay.rate", "times real time; 0: as fast as possible")
-      .flag("--loop", "replay.loop", "start again at the end")
-      .option("--domain", "dds.domain", "DDS domain, 0 to 232")
       .option("--wait-for-wearer", "start.wait_for_wearer",
               "seconds to wait for a wearer before the first frame");
   return program.run(argc, argv, run);

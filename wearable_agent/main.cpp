@@ -1,5 +1,6 @@
 #include <cstdio>
 
+#include "shared/program/agent_options.hpp"
 #include "shared/program/program.hpp"
 #include "shared/program/status_line.hpp"
 #include "wearable_agent/wearable_agent.hpp"
@@ -30,18 +31,10 @@ int main(int argc, char** argv) {
                    .examples = "  wearable_agent --dataset runs/demo/dataset\n"
                                "  wearable_agent --images mav0/cam0 --rate 0.5 --loop\n"
                                "  wearable_agent --config config/wearable.yaml --device /dev/video0\n"});
-  program.option("--dataset", "input.dataset", "Cosight dataset folder")
-      .option("--images", "input.images",
-              "csv, EuRoC or KITTI folder, or a plain folder with --set input.rate_hz")
-      .option("--video", "input.video", "video file")
-      .option("--device", "input.device", "V4L2 camera, such as /dev/video0")
-      .option("--calibration", "input.calibration", "the camera's yaml file")
+  add_agent_options(program)
       .option("--encoding", "input.encoding", "jpeg, png or raw")
       .option("--quality", "input.quality", "of JPEG, 1 to 100; 0: pass JPEG files on unchanged")
       .option("--gate", "input.gate", "frames only in these seconds, such as 0:1.5,3:4.2")
-      .option("--rate", "replay.rate", "times real time; 0: as fast as possible")
-      .flag("--loop", "replay.loop", "start again at the end")
-      .option("--domain", "dds.domain", "DDS domain, 0 to 232")
       .option("--wait-for-robot", "start.wait_for_robot",
               "seconds to wait for a robot before the first frame")
       .option("--summary", "summary", "yaml file for the figures of the run");

@@ -6,7 +6,7 @@
 #include "robot_agent/map/map_files.hpp"
 #include "robot_agent/outbox/frame_log.hpp"
 #include "robot_agent/outbox/output_error.hpp"
-#include "robot_agent/outbox/process_usage.hpp"
+#include "shared/program/process_usage.hpp"
 
 namespace cosight::outbox {
 namespace {
