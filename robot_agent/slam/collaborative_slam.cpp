@@ -122,11 +122,11 @@ bool CollaborativeSlam::advance_to(const FrameBundle& bundle) {
   const double dt = last_stamp_ ? to_seconds(bundle.stamp - *last_stamp_) : 0.0;
   last_stamp_ = bundle.stamp;
   // Without a scale nothing can be estimated: W begins where the first depth is seen.
-  if (tracking_ == Tracking::kWaitingForScale || dt <= 0.0) return false;
+  if (tracking_ == Tracking::kWaitingForScale) return false;
   const ekf::CameraState before = filter_.camera();
   filter_.predict(dt);
   const auto& predictions = search_.predict(filter_, tracks_);
-  if (!bundle.image || !is_wide(predictions)) return false;
+  if (dt <= 0.0 || !bundle.image || !is_wide(predictions)) return false;
   const auto T_WS = motion_prior_.find(tracker_, filter_, tracks_);
   if (!T_WS) return false;
   filter_.recentre_camera(moved(before, *T_WS, dt));
