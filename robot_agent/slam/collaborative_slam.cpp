@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "robot_agent/slam/stopwatch.hpp"
 #include "robot_agent/slam/wearer_silhouette.hpp"
@@ -277,6 +278,8 @@ void CollaborativeSlam::begin(const GrayImage& image, const std::optional<Stereo
       for (const LandmarkTrack& track : tracks_.all())
         filter_.remove_landmark(track.id);
       tracks_.clear();
+      estimate.pseudo_stereo.redundant += std::exchange(estimate.pseudo_stereo.initialised, 0);
+      estimate.landmarks_added = 0;
     }
   }
   if (tracking_ == Tracking::kTracking) scale_stamp_ = estimate.stamp;
