@@ -145,6 +145,7 @@ void CollaborativeSlam::see_wearer(const FrameBundle& bundle) {
 bool CollaborativeSlam::is_wide(const std::vector<ekf::PixelPrediction>& predictions) const {
   if (predictions.empty()) return !tracks_.all().empty();
   std::vector<double> sigmas;
+  sigmas.reserve(predictions.size());
   for (const auto& prediction : predictions)
     sigmas.push_back(std::sqrt(0.5 * prediction.S.trace()));
   const auto middle = sigmas.begin() + static_cast<std::ptrdiff_t>(sigmas.size() / 2);
@@ -289,6 +290,7 @@ std::vector<std::optional<ekf::LandmarkId>> CollaborativeSlam::start_landmarks(
     const std::vector<ekf::StereoMatch>& matches, const ekf::StereoRig& rig) {
   if (options_.pseudo_stereo.correlated_starts) return filter_.add_pseudo_stereo_landmarks(matches, rig);
   std::vector<std::optional<ekf::LandmarkId>> ids;
+  ids.reserve(matches.size());
   for (const ekf::StereoMatch& match : matches)
     ids.push_back(filter_.add_pseudo_stereo_landmark(match, rig));
   return ids;
