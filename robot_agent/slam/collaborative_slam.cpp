@@ -98,7 +98,7 @@ FrameEstimate CollaborativeSlam::process(const FrameBundle& bundle) {
     sightings = search_.find(*bundle.image, filter_, tracks_, known_motion, silhouette_, estimate.search);
   watch.lap(estimate.timings.search);
 
-  const auto view = wearer_view(bundle, estimate);  // overlap
+  const auto view = wearer_view(bundle, sightings, estimate);  // overlap
   watch.lap(estimate.timings.overlap);
 
   const auto measurements =
@@ -160,11 +160,17 @@ bool CollaborativeSlam::may_use_wearer(Stamp stamp) const {
 }
 
 std::optional<StereoView> CollaborativeSlam::wearer_view(const FrameBundle& bundle,
+                                                         const std::vector<Sighting>& sightings,
                                                          FrameEstimate& estimate) const {
   estimate.pseudo_stereo_outcome =
       bundle.wearer_pose_missing ? PseudoStereoOutcome::kNoWearerPose : PseudoStereoOutcome::kNoWearerImage;
   if (!bundle.image || !bundle.wearer || !may_use_wearer(bundle.stamp)) return std::nullopt;
-  const auto T_SF = wearer_pose(*bundle.wearer, filter_.T_WS());
+  // An orientation from the AHRS is one in W: it needs the robot's own, better than the motion model knows
+  // it.
+  const auto T_WS = bundle.wearer->has_orientation
+                        ? std::nullopt
+                        : pose_of_sightings(filter_, sightings, pose_covariance_, options_.seed);
+  const auto T_SF = wearer_pose(*bundle.wearer, T_WS.value_or(filter_.T_WS()));
   estimate.pseudo_stereo_outcome = PseudoStereoOutcome::kNoWearerPose;
   if (!T_SF) return std::nullopt;
   estimate.overlap =
@@ -343,6 +349,7 @@ void CollaborativeSlam::describe(FrameEstimate& estimate) {
   }
   estimate.tracking = tracking_;
   estimate.T_WS = filter_.T_WS();
+  pose_covariance_ = estimate.T_WS.covariance;
   const ekf::CameraState camera = filter_.camera();
   estimate.v_W = camera.v_W;
   estimate.omega_S = camera.omega_S;

@@ -46,7 +46,8 @@ class CollaborativeSlam {
   bool advance_to(const FrameBundle& bundle);
   bool is_wide(const std::vector<ekf::PixelPrediction>& predictions) const;
   bool may_use_wearer(Stamp stamp) const;
-  std::optional<StereoView> wearer_view(const FrameBundle& bundle, FrameEstimate& estimate) const;
+  std::optional<StereoView> wearer_view(const FrameBundle& bundle, const std::vector<Sighting>& sightings,
+                                        FrameEstimate& estimate) const;
   std::vector<ekf::Measurement> validate(const std::vector<ekf::Measurement>& measurements,
                                          FrameEstimate& estimate);
   void note_fused(const std::vector<Sighting>& sightings, const ekf::UpdateReport& report,
@@ -78,7 +79,9 @@ class CollaborativeSlam {
   vision::CornerDetector corners_;
 
   Tracking tracking_ = Tracking::kWaitingForScale;
-  ConvexPolygon silhouette_;  ///< of the wearer in the present frame [px]
+  Eigen::Matrix<double, 6, 6> pose_covariance_ =
+      Eigen::Matrix<double, 6, 6>::Zero();  ///< after the last frame
+  ConvexPolygon silhouette_;                ///< of the wearer in the present frame [px]
   std::optional<Stamp> last_stamp_;
   std::optional<Stamp> scale_stamp_;  ///< when tracking began
   int frames_without_match_ = 0;

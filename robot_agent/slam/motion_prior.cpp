@@ -31,6 +31,26 @@ std::optional<Pose> MotionPrior::find(const vision::PointTracker& tracker, const
   return pose->T_WC.T;
 }
 
+std::optional<UncertainPose> pose_of_sightings(const ekf::Filter& filter,
+                                               const std::vector<Sighting>& sightings,
+                                               const Eigen::Matrix<double, 6, 6>& drift, std::uint32_t seed) {
+  std::vector<vision::KnownPoint> points;
+  for (const Sighting& sighting : sightings) {
+    if (const auto landmark = filter.landmark(sighting.landmark)) {
+      points.push_back({finite_point(*landmark), sighting.pixel});
+    }
+  }
+  vision::KnownPointsOptions options;
+  options.sigma_pixel = filter.options().pixel_sigma;
+  options.seed = seed;
+  options.min_inliers = 6;
+  const auto pose = vision::estimate_pose_ransac(filter.camera_model(), points, options);
+  if (!pose || 2 * pose->inlier_count < static_cast<int>(points.size())) return std::nullopt;
+  UncertainPose T_WS = pose->T_WC;
+  T_WS.covariance += drift;
+  return T_WS;
+}
+
 ekf::CameraState moved(const ekf::CameraState& before, const Pose& T_WS, double dt) {
   ekf::CameraState now;
   now.r_WS = T_WS.p;

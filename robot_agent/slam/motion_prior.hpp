@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "robot_agent/ekf/filter.hpp"
+#include "robot_agent/slam/landmark_search.hpp"
 #include "robot_agent/slam/landmark_tracks.hpp"
 #include "robot_agent/vision/point_tracker.hpp"
 #include "shared/geometry/pose.hpp"
@@ -25,6 +26,13 @@ class MotionPrior {
  private:
   std::uint32_t seed_;
 };
+
+/// The camera's pose now by what it sees now (PnP with RANSAC): the doubt that the motion model adds is gone,
+/// that of W's own axes, `drift` (covariance of the pose before the motion), stays. Nothing when too few
+/// sightings agree.
+std::optional<UncertainPose> pose_of_sightings(const ekf::Filter& filter,
+                                               const std::vector<Sighting>& sightings,
+                                               const Eigen::Matrix<double, 6, 6>& drift, std::uint32_t seed);
 
 /// The camera state that moved from `before` to `T_WS` in `dt` [s].
 ekf::CameraState moved(const ekf::CameraState& before, const Pose& T_WS, double dt);
