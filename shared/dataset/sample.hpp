@@ -44,7 +44,37 @@ struct WearerPoseSample {
   bool has_orientation = true;  ///< false: position only; the orientation then comes from the AHRS
 };
 
-using Sample = std::variant<ImageSample, AhrsSample, WearerPoseSample>;
+/// One turn of a laser range finder (sensor_msgs/LaserScan): ranges [m] from `angle_min` on,
+/// counter-clockwise in the x-y plane of the laser L (x the middle of its arc, z up); not finite or outside
+/// [range_min, range_max]: nothing came back. All rays are taken to be of `stamp`.
+struct LaserScanSample {
+  Stamp stamp = 0;
+  std::string laser;             ///< which one: "laser_front", "laser_rear"
+  float angle_min = 0.0F;        ///< [rad]
+  float angle_increment = 0.0F;  ///< [rad]
+  float range_min = 0.0F;        ///< [m]
+  float range_max = 0.0F;        ///< [m]
+  std::vector<float> ranges;
+};
+
+/// The robot's inertial sensor, in its own axes I.
+struct ImuSample {
+  Stamp stamp = 0;
+  Eigen::Vector3d angular_velocity_I = Eigen::Vector3d::Zero();  ///< [rad/s]
+  Eigen::Vector3d acceleration_I = Eigen::Vector3d::Zero();      ///< specific force [m/s^2]
+};
+
+/// What the wheels say of the robot's body B since their start (nav_msgs/Odometry): drifts, never jumps.
+struct WheelOdometrySample {
+  Stamp stamp = 0;
+  double x = 0.0, y = 0.0;  ///< [m] in the frame O of the start
+  double yaw = 0.0;         ///< [rad]
+  double speed = 0.0;       ///< forward [m/s]
+  double turn_rate = 0.0;   ///< [rad/s]
+};
+
+using Sample =
+    std::variant<ImageSample, AhrsSample, WearerPoseSample, LaserScanSample, ImuSample, WheelOdometrySample>;
 
 Stamp stamp_of(const Sample& sample);
 

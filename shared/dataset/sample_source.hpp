@@ -25,7 +25,7 @@ struct SourceCounters {
 };
 
 /// In the order of Sample's alternatives.
-enum class SampleKind { kImage, kAhrs, kWearerPose };
+enum class SampleKind { kImage, kAhrs, kWearerPose, kLaserScan, kImu, kWheelOdometry };
 constexpr std::size_t kSampleKinds = std::variant_size_v<Sample>;
 inline SampleKind kind_of(const Sample& sample) {
   return static_cast<SampleKind>(sample.index());
