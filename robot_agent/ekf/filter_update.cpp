@@ -25,12 +25,12 @@ auto observe(const Model& model, const GaussianState& state, int offset, int dim
   if (dim == InverseDepthPoint::kDim) {
     typename Model::Jacobians H;
     const auto y = InverseDepthPoint::from_vector(state.x().segment<InverseDepthPoint::kDim>(offset));
-    const auto h = model.predict(x, y, &H);
+    auto h = model.predict(x, y, &H);
     if (h) use(H);
     return h;
   }
   typename Model::PointJacobians H;
-  const auto h = model.predict(x, Eigen::Vector3d(state.x().segment<3>(offset)), &H);
+  auto h = model.predict(x, Eigen::Vector3d(state.x().segment<3>(offset)), &H);
   if (h) use(H);
   return h;
 }

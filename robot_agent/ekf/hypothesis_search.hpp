@@ -43,12 +43,11 @@ class HypothesisSearch {
     int rows = 0;
   };
 
-  Matrix& block(Level& level, int i, int j) const {
-    return level.A[static_cast<std::size_t>(i * pairings_ + j)];
+  std::size_t at(int i, int j) const {
+    return static_cast<std::size_t>(i) * static_cast<std::size_t>(pairings_) + static_cast<std::size_t>(j);
   }
-  const Matrix& block(const Level& level, int i, int j) const {
-    return level.A[static_cast<std::size_t>(i * pairings_ + j)];
-  }
+  Matrix& block(Level& level, int i, int j) const { return level.A[at(i, j)]; }
+  const Matrix& block(const Level& level, int i, int j) const { return level.A[at(i, j)]; }
   void eliminate(const Level& from, int k, int first, Level& to) const;
   void search(std::size_t depth, int first, int removals, const ChiSquaredLimits& limits);
   void search_last(const Level& level, int first, const ChiSquaredLimits& limits);

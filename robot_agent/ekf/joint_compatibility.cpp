@@ -49,7 +49,8 @@ bool JointCompatibility::factorise(const JointInnovation& innovation) {
   const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> llt(S);
   if (llt.info() != Eigen::Success) return false;
   whitened_ = innovation.g();
-  L_.triangularView<Eigen::Lower>().solveInPlace(whitened_);
+  auto whitened = whitened_.head(innovation.rows());
+  L_.triangularView<Eigen::Lower>().solveInPlace(whitened);
   return whitened_.allFinite();
 }
 
@@ -60,7 +61,8 @@ void JointCompatibility::invert() {
   A_.setZero(L_.rows(), L_.cols());
   A_.selfadjointView<Eigen::Lower>().rankUpdate(L_inverse_.transpose());
   A_.triangularView<Eigen::StrictlyUpper>() = A_.transpose();
-  u_.noalias() = L_inverse_.transpose() * whitened_;
+  u_.resize(whitened_.size());
+  for (Eigen::Index i = 0; i < u_.size(); ++i) u_(i) = L_inverse_.col(i).dot(whitened_);
 }
 
 template <int Block>

@@ -20,7 +20,7 @@ std::optional<Eigen::Vector2d> BearingObservation::predict(const CameraState& x,
   const Eigen::Vector3d h_W = y.rho * offset_W + m;
   const Eigen::Matrix3d R_SW = x.q_WS.toRotationMatrix().transpose();
   Eigen::Matrix<double, 2, 3> J_pixel;
-  const auto pixel = camera.project(R_SW * h_W, jacobians != nullptr ? &J_pixel : nullptr);
+  auto pixel = camera.project(R_SW * h_W, jacobians != nullptr ? &J_pixel : nullptr);
   if (pixel && jacobians != nullptr) {
     const Eigen::Matrix<double, 2, 3> J_W = J_pixel * R_SW;
     jacobians->H_camera.middleCols<3>(kR) = -y.rho * J_W;
@@ -37,7 +37,7 @@ std::optional<Eigen::Vector2d> BearingObservation::predict(const CameraState& x,
   const Eigen::Vector3d h_W = p_W - x.r_WS;
   const Eigen::Matrix3d R_SW = x.q_WS.toRotationMatrix().transpose();
   Eigen::Matrix<double, 2, 3> J_pixel;
-  const auto pixel = camera.project(R_SW * h_W, jacobians != nullptr ? &J_pixel : nullptr);
+  auto pixel = camera.project(R_SW * h_W, jacobians != nullptr ? &J_pixel : nullptr);
   if (pixel && jacobians != nullptr) {
     jacobians->H_landmark = J_pixel * R_SW;
     jacobians->H_camera.middleCols<3>(kR) = -jacobians->H_landmark;
@@ -51,7 +51,7 @@ std::optional<Eigen::Vector3d> EuclideanObservation::predict(const CameraState& 
   if (!(y.rho > min_inverse_depth)) return std::nullopt;
   Eigen::Matrix<double, 3, InverseDepthPoint::kDim> p_W_y;
   PointJacobians point;
-  const auto h_e = predict(x, y.p_W(&p_W_y), jacobians != nullptr ? &point : nullptr);
+  auto h_e = predict(x, y.p_W(&p_W_y), jacobians != nullptr ? &point : nullptr);
   if (h_e && jacobians != nullptr) {
     jacobians->H_camera = point.H_camera;
     jacobians->H_landmark = point.H_landmark * p_W_y;
