@@ -136,26 +136,25 @@ CameraModel read_camera(const ConfigNode& camera) {
   return model;
 }
 
-/// A transform of 3x4 or 4x4 numbers whose rotation is a rotation to the precision people write down.
-std::optional<Pose> read_pose(const ConfigNode& node, const std::string& key) {
-  const auto values = node.numbers(key, {});
-  if (values.size() != 12 && values.size() != 16) throw node.error(key, "has to be a 3x4 or 4x4 transform");
-  using RowMajor34 = Eigen::Matrix<double, 3, 4, Eigen::RowMajor>;
-  const RowMajor34 matrix = Eigen::Map<const RowMajor34>(values.data());
-  const Eigen::Matrix3d R = matrix.leftCols<3>();
-  constexpr double kTolerance = 1e-3;
-  if (!(R * R.transpose()).isIdentity(kTolerance) || R.determinant() < 0) {
-    throw node.error(key, "is no rigid transform: its left 3x3 part is not a rotation");
-  }
-  return Pose{Eigen::Quaterniond(R).normalized(), matrix.col(3)};
-}
-
 std::string full(double value) {
   char text[32];
   return {text, std::to_chars(text, text + sizeof text, value).ptr};
 }
 
 }  // namespace
+
+Pose read_transform(const ConfigNode& node, const std::string& key) {
+  const auto values = node.numbers(key, {});
+  if (values.size() != 12 && values.size() != 16) throw node.error(key, "has to be a 3x4 or 4x4 transform");
+  using RowMajor34 = Eigen::Matrix<double, 3, 4, Eigen::RowMajor>;
+  const RowMajor34 matrix = Eigen::Map<const RowMajor34>(values.data());
+  const Eigen::Matrix3d R = matrix.leftCols<3>();
+  constexpr double kTolerance = 1e-3;  // the precision that people write down
+  if (!(R * R.transpose()).isIdentity(kTolerance) || R.determinant() < 0) {
+    throw node.error(key, "is no rigid transform: its left 3x3 part is not a rotation");
+  }
+  return Pose{Eigen::Quaterniond(R).normalized(), matrix.col(3)};
+}
 
 CameraModel load_camera_model(const std::filesystem::path& file, const std::string& camera_name) {
   return read_camera(camera_section(ConfigFile::load(file), camera_name));
@@ -164,9 +163,9 @@ CameraModel load_camera_model(const std::filesystem::path& file, const std::stri
 std::optional<Pose> load_body_extrinsics(const std::filesystem::path& file, const std::string& camera_name) {
   const ConfigFile config = ConfigFile::load(file);
   const ConfigNode camera = camera_section(config, camera_name);
-  if (camera.has("T_BC")) return read_pose(camera, "T_BC");
-  if (camera.has("T_cam_imu")) return read_pose(camera, "T_cam_imu")->inverse();
-  if (camera.has("T_BS")) return read_pose(camera.section("T_BS"), "data");
+  if (camera.has("T_BC")) return read_transform(camera, "T_BC");
+  if (camera.has("T_cam_imu")) return read_transform(camera, "T_cam_imu").inverse();
+  if (camera.has("T_BS")) return read_transform(camera.section("T_BS"), "data");
   return std::nullopt;
 }
 

@@ -9,6 +9,8 @@
 
 namespace cosight {
 
+class ConfigNode;
+
 /// The camera `camera_name` of a calibration file. Understood are
 /// - Kalibr's: `cam0: {camera_model: pinhole, distortion_model: radtan | equidistant | none,
 ///   distortion_coeffs: […], intrinsics: [fx, fy, cx, cy], resolution: [w, h]}`;
@@ -22,6 +24,9 @@ CameraModel load_camera_model(const std::filesystem::path& file, const std::stri
 /// nothing when the file does not say.
 std::optional<Pose> load_body_extrinsics(const std::filesystem::path& file,
                                          const std::string& camera_name = "cam0");
+
+/// A rigid transform of 3x4 or 4x4 numbers, written row by row. Throws ConfigError when it is none.
+Pose read_transform(const ConfigNode& node, const std::string& key);
 
 /// Kalibr's form, as `load_camera_model` reads it; numbers in full. Throws ConfigError when it can't write.
 void write_camera_model(const std::filesystem::path& file, const CameraModel& camera,

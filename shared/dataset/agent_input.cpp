@@ -9,6 +9,7 @@
 #include "shared/dataset/dataset_error.hpp"
 #include "shared/dataset/image_list_source.hpp"
 #include "shared/dataset/merged_source.hpp"
+#include "shared/dataset/robot_csv.hpp"
 #include "shared/dataset/v4l2_source.hpp"
 #include "shared/dataset/video_source.hpp"
 
@@ -45,6 +46,17 @@ void read_robot_options(const ConfigNode& node, InputOptions& options) {
   options.wearer_pose = node.path("wearer_pose", options.wearer_pose);
   noise.position = node.number("wearer_position_sigma_m", noise.position, 1e-5, 100.0);
   noise.rotation = read_sigma(node, "wearer_rotation_sigma_deg", noise.rotation);
+  RobotFiles& robot = options.robot;
+  robot.lasers = node.path("lasers", robot.lasers);
+  robot.laser_front = node.path("laser_front", robot.laser_front);
+  robot.laser_rear = node.path("laser_rear", robot.laser_rear);
+  robot.odometry = node.path("odometry", robot.odometry);
+  robot.imu = node.path("imu", robot.imu);
+  robot.known_points = node.path("known_points", robot.known_points);
+  const bool has_scans = !robot.laser_front.empty() || !robot.laser_rear.empty();
+  if (has_scans && robot.lasers.empty()) {
+    throw node.error("lasers", "is missing; scans can't be read without the yaml of their lasers");
+  }
 }
 
 void require_one_source(const ConfigNode& node, const InputOptions& options) {
@@ -75,6 +87,8 @@ AgentInput prepare_dataset(const InputOptions& options, Agent agent) {
     input.camera = dataset.robot_camera();
     input.known_points = dataset.known_points();
     input.has_wearer_pose = dataset.has_wearer_pose();
+    input.T_BS = dataset.T_BS();
+    input.lasers = dataset.lasers();
     input.open = [dataset, options] { return dataset.open_robot(options.output, options.wearer_pose_noise); };
   } else {
     input.camera = dataset.wearer_camera();
@@ -99,12 +113,33 @@ std::unique_ptr<SampleSource> open_camera(const InputOptions& options, const Fra
   return std::make_unique<V4l2Source>(camera, output, stop);
 }
 
+const LaserMounting& mounting_of(const std::string& name, const std::filesystem::path& yaml,
+                                 const std::vector<LaserMounting>& lasers) {
+  for (const LaserMounting& laser : lasers) {
+    if (laser.laser == name) return laser;
+  }
+  throw ConfigError("input." + name + ": " + yaml.string() + " has no section " +
+                    name.substr(name.find('_') + 1));
+}
+
+void open_robot_files(const RobotFiles& files, std::vector<std::unique_ptr<SampleSource>>& sources) {
+  if (!files.odometry.empty()) sources.push_back(open_odometry_csv(files.odometry));
+  if (!files.imu.empty()) sources.push_back(open_imu_csv(files.imu));
+  if (files.lasers.empty()) return;
+  const auto lasers = read_laser_mountings(files.lasers);
+  for (const auto& [name, csv] :
+       {std::pair{"laser_front", files.laser_front}, std::pair{"laser_rear", files.laser_rear}}) {
+    if (!csv.empty()) sources.push_back(open_laser_csv(csv, mounting_of(name, files.lasers, lasers)));
+  }
+}
+
 std::unique_ptr<SampleSource> open_parts(const InputOptions& options, const FrameOutput& output, Agent agent,
                                          const std::atomic<bool>& stop) {
   std::vector<std::unique_ptr<SampleSource>> sources;
   if (agent == Agent::kWearer && !options.ahrs.empty()) {
     sources.push_back(open_ahrs_csv(options.ahrs, options.ahrs_noise));
   }
+  if (agent == Agent::kRobot) open_robot_files(options.robot, sources);
   if (agent == Agent::kRobot && !options.wearer_pose.empty()) {
     sources.push_back(open_wearer_pose_csv(options.wearer_pose, options.wearer_pose_noise));
   }
@@ -141,7 +176,14 @@ AgentInput prepare_input(const InputOptions& options, Agent agent, const std::at
   if (!options.dataset.empty()) {
     input = prepare_dataset(options, agent);
   } else {
-    input.camera = load_camera_model(calibration_of(options), options.camera);
+    const auto calibration = calibration_of(options);
+    input.camera = load_camera_model(calibration, options.camera);
+    if (agent == Agent::kRobot) {
+      input.T_BS = load_body_extrinsics(calibration, options.camera);
+      if (!options.robot.lasers.empty()) input.lasers = read_laser_mountings(options.robot.lasers);
+      if (!options.robot.known_points.empty())
+        input.known_points = read_known_points(options.robot.known_points);
+    }
     FrameOutput output = options.output;
     output.width = input.camera.width;
     output.height = input.camera.height;

@@ -8,9 +8,20 @@
 #include "shared/config/config.hpp"
 #include "shared/dataset/frame_encoder.hpp"
 #include "shared/dataset/gated_source.hpp"
+#include "shared/dataset/laser_mounting.hpp"
 #include "shared/dataset/motion_csv.hpp"
 
 namespace cosight {
+
+/// Of the robot, beside images, video or device; what a dataset folder holds under the same names.
+struct RobotFiles {
+  std::filesystem::path lasers;  ///< yaml: where the lasers sit and how they measure
+  std::filesystem::path laser_front;
+  std::filesystem::path laser_rear;
+  std::filesystem::path odometry;
+  std::filesystem::path imu;
+  std::filesystem::path known_points;
+};
 
 /// Where an agent's samples come from; the section `input` of its configuration. One of the first four.
 struct InputOptions {
@@ -24,6 +35,7 @@ struct InputOptions {
   double rate_hz = 0.0;               ///< of a plain folder, a video or a camera; 0: theirs
   std::filesystem::path ahrs;         ///< wearer: csv beside images, video or device
   std::filesystem::path wearer_pose;  ///< robot: csv beside images, video or device
+  RobotFiles robot;
   AhrsNoise ahrs_noise;
   WearerPoseNoise wearer_pose_noise;
   std::vector<TimeInterval> gate;  ///< images only inside; empty: always
@@ -43,6 +55,8 @@ struct AgentInput {
   bool live = false;                     ///< a camera: comes at its own pace and can't be repeated
   std::vector<KnownPoint> known_points;  ///< of a dataset, for the robot
   bool has_wearer_pose = false;          ///< it yields poses of the worn camera, for the robot
+  std::optional<Pose> T_BS;              ///< of the camera in the robot's body; not known to all
+  std::vector<LaserMounting> lasers;     ///< on the robot
 };
 
 /// Throws ConfigError or DatasetError with the file's name. `stop` ends a live source; it has to outlive it.

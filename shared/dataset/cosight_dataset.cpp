@@ -6,6 +6,7 @@
 #include "shared/dataset/dataset_error.hpp"
 #include "shared/dataset/image_list_source.hpp"
 #include "shared/dataset/merged_source.hpp"
+#include "shared/dataset/robot_csv.hpp"
 
 namespace cosight {
 namespace {
@@ -40,10 +41,27 @@ CameraModel CosightDataset::wearer_camera() const {
   return load_camera_model(wearer_calibration());
 }
 
+std::optional<Pose> CosightDataset::T_BS() const {
+  return load_body_extrinsics(robot_calibration());
+}
+
+std::vector<LaserMounting> CosightDataset::lasers() const {
+  const auto yaml = folder_ / "robot/lasers.yaml";
+  return std::filesystem::exists(yaml) ? read_laser_mountings(yaml) : std::vector<LaserMounting>{};
+}
+
 std::unique_ptr<SampleSource> CosightDataset::open_robot(FrameOutput output,
                                                          const WearerPoseNoise& noise) const {
   std::vector<std::unique_ptr<SampleSource>> sources;
-  // A pose that belongs to a frame comes before it: who pairs them need not wait.
+  // What belongs to a frame comes before it, and odometry before the scans: who pairs them need not wait.
+  const auto odometry = folder_ / "robot/odometry.csv";
+  if (std::filesystem::exists(odometry)) sources.push_back(open_odometry_csv(odometry));
+  const auto imu = folder_ / "robot/imu.csv";
+  if (std::filesystem::exists(imu)) sources.push_back(open_imu_csv(imu));
+  for (const LaserMounting& laser : lasers()) {
+    const auto scans = folder_ / "robot" / (laser.laser + ".csv");
+    if (std::filesystem::exists(scans)) sources.push_back(open_laser_csv(scans, laser));
+  }
   if (has_wearer_pose()) sources.push_back(open_wearer_pose_csv(wearer_poses(), noise));
   sources.push_back(open_frames(folder_ / "robot/cam0.csv", robot_camera(), output));
   return std::make_unique<MergedSource>(std::move(sources));

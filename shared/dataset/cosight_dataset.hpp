@@ -5,6 +5,7 @@
 
 #include "shared/dataset/frame_encoder.hpp"
 #include "shared/dataset/gated_source.hpp"
+#include "shared/dataset/laser_mounting.hpp"
 #include "shared/dataset/motion_csv.hpp"
 
 namespace cosight {
@@ -12,11 +13,12 @@ namespace cosight {
 /// The folder of a two-agent sequence, as the simulator and `cosight prepare` write it:
 ///
 ///   robot/calibration.yaml (cam0)  robot/cam0.csv  robot/wearer_pose.csv  robot/known_points.csv
+///   robot/lasers.yaml  robot/laser_front.csv  robot/laser_rear.csv  robot/odometry.csv  robot/imu.csv
 ///   wearer/calibration.yaml (cam0) wearer/cam0.csv wearer/ahrs.csv
 ///   truth/robot_cam0.tum           truth/wearer_cam0.tum
 ///
-/// Of each agent the first two have to be there; the formats are those of image_list.hpp and motion_csv.hpp,
-/// the stamps of both agents are of one clock.
+/// Of each agent the first two have to be there; the formats are those of image_list.hpp, motion_csv.hpp and
+/// robot_csv.hpp, the stamps of both agents are of one clock.
 class CosightDataset {
  public:
   /// Throws DatasetError when there is no such folder.
@@ -29,8 +31,8 @@ class CosightDataset {
   CameraModel robot_camera() const;
   CameraModel wearer_camera() const;
 
-  /// Frames and, when there are any, poses of the worn camera. The size in `output` is set from the
-  /// calibration.
+  /// Frames and, when there are any, poses of the worn camera, laser scans, wheel odometry and IMU. The size
+  /// in `output` is set from the calibration.
   std::unique_ptr<SampleSource> open_robot(FrameOutput output = {}, const WearerPoseNoise& noise = {}) const;
 
   /// Frames, only inside `gate` when that is not empty, and orientations when there are any.
@@ -39,6 +41,11 @@ class CosightDataset {
 
   /// None when there is no robot/known_points.csv.
   std::vector<KnownPoint> known_points() const;
+
+  /// Pose of the SLAM camera in the robot's body; nothing when the calibration does not say.
+  std::optional<Pose> T_BS() const;
+  /// None when there is no robot/lasers.yaml.
+  std::vector<LaserMounting> lasers() const;
 
   std::filesystem::path robot_calibration() const { return folder_ / "robot/calibration.yaml"; }
   std::filesystem::path wearer_calibration() const { return folder_ / "wearer/calibration.yaml"; }

@@ -11,9 +11,8 @@
 
 namespace cosight {
 
-/// The rows of a csv, each with its line number; whole in memory. The first line is a header when it starts
-/// with `#` or a letter; later lines that start with `#` and empty ones are skipped. Cells are text without
-/// the spaces around it: what they mean, and what to do with a bad one, is the reader's business.
+/// The rows of a csv (csv_lines.hpp), each with its line number; whole in memory. What the cells mean, and
+/// what to do with a bad one, is the reader's business.
 class CsvRows {
  public:
   /// Throws DatasetError when the file can't be read or has no row.

@@ -35,9 +35,19 @@ class AgentInputTest : public DatasetFixture {
     write("wearer/ahrs.csv", "stamp_ns,qx,qy,qz,qw\n5,0,0,0,1\n");
   }
 
-  InputOptions options(const std::vector<ConfigOverride>& overrides) const {
+  /// What a robot has besides its camera.
+  void add_robot_sensors() const {
+    write("robot/lasers.yaml",
+          "rear: {points: 2, angle_min_rad: -1, angle_increment_rad: 2, range_min_m: 0.3, range_max_m: 20,\n"
+          "       T_BL: [-1, 0, 0, -0.4, 0, -1, 0, 0, 0, 0, 1, 0.3]}\n");
+    write("robot/laser_rear.csv", "stamp_ns,a,b\n3,1,inf\n1000000000,1,inf\n");
+    write("robot/odometry.csv", "stamp_ns,x_m,y_m,yaw_rad,speed_mps,turn_rate_radps\n3,0,0,0,0,0\n");
+    write("robot/imu.csv", "stamp_ns,wx,wy,wz,ax,ay,az\n4,0,0,0,0,0,9.81\n");
+  }
+
+  InputOptions options(const std::vector<ConfigOverride>& overrides, Agent agent = Agent::kWearer) const {
     const ConfigFile file = ConfigFile::parse("", "test.yaml", overrides);
-    InputOptions read = read_input_options(file.root().section("input"), Agent::kWearer);
+    InputOptions read = read_input_options(file.root().section("input"), agent);
     file.refuse_unknown_keys();
     return read;
   }
@@ -67,6 +77,47 @@ TEST_F(AgentInputTest, ADatasetServesBothAgents) {
   const auto wearer = prepare_input(options({set("dataset", folder_.string()), set("gate", "0:1,2:3")}),
                                     Agent::kWearer, stop_);
   EXPECT_THAT(stamps_of(all_of(*wearer.open())), ElementsAre(0, 5, 2 * kNanosecondsPerSecond));
+}
+
+TEST_F(AgentInputTest, ADatasetWithLasersYieldsEverythingInTheOrderOfTheStamps) {
+  make_dataset();
+  add_robot_sensors();
+  const auto robot =
+      prepare_input(options({set("dataset", folder_.string())}, Agent::kRobot), Agent::kRobot, stop_);
+  ASSERT_EQ(robot.lasers.size(), 1U);
+  EXPECT_EQ(robot.lasers[0].laser, "laser_rear");
+  EXPECT_FALSE(robot.T_BS) << "this calibration does not say where the camera sits";
+  std::vector<SampleKind> kinds;
+  for (const Sample& sample : all_of(*robot.open()))
+    kinds.push_back(kind_of(sample));
+  using enum SampleKind;
+  EXPECT_THAT(kinds, ElementsAre(kWearerPose, kImage, kWheelOdometry, kLaserScan, kImu, kLaserScan,
+                                 kWearerPose, kImage, kImage));
+}
+
+TEST_F(AgentInputTest, TheSameFilesBesideImages) {
+  make_dataset();
+  add_robot_sensors();
+  const auto in_robot = [&](const std::string& key, const std::string& name) {
+    return set(key, (folder_ / "robot" / name).string());
+  };
+  std::vector<ConfigOverride> given = {in_robot("images", "cam0.csv"),
+                                       in_robot("calibration", "calibration.yaml"),
+                                       in_robot("laser_rear", "laser_rear.csv")};
+  EXPECT_THAT(error_of<ConfigError>([&] { options(given, Agent::kRobot); }),
+              HasSubstr("input.lasers: is missing"));
+  given.push_back(in_robot("lasers", "lasers.yaml"));
+  given.push_back(in_robot("odometry", "odometry.csv"));
+  given.push_back(in_robot("imu", "imu.csv"));
+  given.push_back(in_robot("known_points", "known_points.csv"));
+  const auto robot = prepare_input(options(given, Agent::kRobot), Agent::kRobot, stop_);
+  EXPECT_EQ(robot.lasers.size(), 1U);
+  EXPECT_EQ(robot.known_points.size(), 1U);
+  EXPECT_EQ(all_of(*robot.open()).size(), 7U);
+  given.push_back(in_robot("laser_front", "laser_rear.csv"));
+  EXPECT_THAT(
+      error_of<ConfigError>([&] { prepare_input(options(given, Agent::kRobot), Agent::kRobot, stop_); }),
+      HasSubstr("input.laser_front: "));
 }
 
 TEST_F(AgentInputTest, AWrongSizeAgainstTheCalibrationIsCounted) {
