@@ -13,6 +13,7 @@
 #include <mutex>
 #include <utility>
 
+#include "shared/transport/discovered_writers.hpp"
 #include "shared/transport/participant_impl.hpp"
 #include "shared/transport/participant_qos.hpp"
 #include "shared/transport/payload_type.hpp"
@@ -25,13 +26,6 @@ namespace rtps = eprosima::fastrtps::rtps;
 namespace {
 
 using WriterId = std::array<std::uint8_t, 16>;
-
-WriterId writer_id(const rtps::GUID_t& guid) {
-  WriterId id{};
-  std::copy_n(guid.guidPrefix.value, rtps::GuidPrefix_t::size, id.begin());
-  std::copy_n(guid.entityId.value, rtps::EntityId_t::size, id.begin() + rtps::GuidPrefix_t::size);
-  return id;
-}
 
 Reception reception_of(const dds::SampleInfo& sample) {
   return {.stamp = sample.reception_timestamp.to_ns(),

@@ -60,12 +60,18 @@ void Participant::Impl::release() {
 }
 
 dds::Topic& Participant::Impl::topic(const TopicProfile& profile) {
+  return topic(std::string(profile.name), std::string(type_name(profile.kind)), false);
+}
+
+dds::Topic& Participant::Impl::topic(const std::string& name, const std::string& type, bool keyed) {
   const std::lock_guard lock(mutex_);
-  const std::string name(profile.name);
-  const std::string type(type_name(profile.kind));
-  if (auto* known = dynamic_cast<dds::Topic*>(participant_->lookup_topicdescription(name))) return *known;
+  if (auto* known = dynamic_cast<dds::Topic*>(participant_->lookup_topicdescription(name))) {
+    if (known->get_type_name() == type) return *known;
+    throw TransportError("DDS topic " + name + " is of type " + known->get_type_name() + " already, not " +
+                         type);
+  }
   if (participant_->find_type(type).empty()) {
-    participant_->register_type(dds::TypeSupport(new PayloadType(type)));
+    participant_->register_type(dds::TypeSupport(new PayloadType(type, keyed)));
   }
   dds::Topic* topic = participant_->create_topic(name, type, dds::TOPIC_QOS_DEFAULT);
   if (topic == nullptr) throw TransportError("DDS topic " + name + " could not be created");
@@ -98,6 +104,11 @@ void Participant::Impl::on_participant_discovery(dds::DomainParticipant* /*parti
     default:
       break;
   }
+}
+
+void Participant::Impl::on_publisher_discovery(dds::DomainParticipant* /*participant*/,
+                                               rtps::WriterDiscoveryInfo&& discovery) {
+  writers_.update(discovery);
 }
 
 Participant::Participant(const ParticipantOptions& options) : impl_(std::make_shared<Impl>(options)) {}

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "shared/transport/discovered_writers.hpp"
 #include "shared/transport/participant.hpp"
 #include "shared/transport/topics.hpp"
 
@@ -25,16 +26,22 @@ class Participant::Impl : private eprosima::fastdds::dds::DomainParticipantListe
   eprosima::fastdds::dds::Publisher& publisher() { return *publisher_; }
   eprosima::fastdds::dds::Subscriber& subscriber() { return *subscriber_; }
 
+  eprosima::fastdds::dds::DomainParticipant& entity() { return *participant_; }
+
   /// Registered once a participant, whoever asks first.
   eprosima::fastdds::dds::Topic& topic(const TopicProfile& profile);
+  eprosima::fastdds::dds::Topic& topic(const std::string& name, const std::string& type, bool keyed);
 
   bool paced() const { return paced_; }
   const std::vector<std::string>& warnings() const { return warnings_; }
   PeerCounters peers() const;
+  const DiscoveredWriters& writers() const { return writers_; }
 
  private:
   void on_participant_discovery(eprosima::fastdds::dds::DomainParticipant* participant,
                                 eprosima::fastrtps::rtps::ParticipantDiscoveryInfo&& discovery) override;
+  void on_publisher_discovery(eprosima::fastdds::dds::DomainParticipant* participant,
+                              eprosima::fastrtps::rtps::WriterDiscoveryInfo&& discovery) override;
   void release();
 
   bool paced_;
@@ -44,6 +51,7 @@ class Participant::Impl : private eprosima::fastdds::dds::DomainParticipantListe
   eprosima::fastdds::dds::Subscriber* subscriber_ = nullptr;
   mutable std::mutex mutex_;
   PeerCounters peers_;
+  DiscoveredWriters writers_;
 };
 
 }  // namespace cosight::transport

@@ -14,10 +14,10 @@ constexpr std::uint32_t kUsualBytes = 1024;
 
 }  // namespace
 
-PayloadType::PayloadType(const std::string& type_name) {
+PayloadType::PayloadType(const std::string& type_name, bool keyed) {
   setName(type_name.c_str());
   m_typeSize = kUsualBytes;
-  m_isGetKeyDefined = false;
+  m_isGetKeyDefined = keyed;
   auto_fill_type_object(false);
   auto_fill_type_information(false);
 }
@@ -51,8 +51,10 @@ void* PayloadType::createData() {
 void PayloadType::deleteData(void* data) {
   delete static_cast<Payload*>(data);
 }
-bool PayloadType::getKey(void* /*data*/, rtps::InstanceHandle_t* /*handle*/, bool /*force_md5*/) {
-  return false;
+bool PayloadType::getKey(void* /*data*/, rtps::InstanceHandle_t* handle, bool /*force_md5*/) {
+  if (!m_isGetKeyDefined) return false;
+  handle->value[0] = 1;  // any but none
+  return true;
 }
 
 }  // namespace cosight::transport

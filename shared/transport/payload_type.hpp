@@ -15,7 +15,8 @@ class PayloadType : public eprosima::fastdds::dds::TopicDataType {
   /// With the 4-byte encapsulation header, as it was or will be on the wire.
   using Payload = std::vector<std::uint8_t>;
 
-  explicit PayloadType(const std::string& type_name);
+  /// `keyed`: to match writers and readers of a type with a key; all samples count as one instance.
+  explicit PayloadType(const std::string& type_name, bool keyed = false);
 
   bool serialize(void* data, eprosima::fastrtps::rtps::SerializedPayload_t* wire) override;
   bool deserialize(eprosima::fastrtps::rtps::SerializedPayload_t* wire, void* data) override;
