@@ -25,20 +25,23 @@ namespace rtps = eprosima::fastrtps::rtps;
 
 namespace {
 
-using WriterId = std::array<std::uint8_t, 16>;
-
-Reception reception_of(const dds::SampleInfo& sample) {
+Reception reception_of(const dds::SampleInfo& sample, const rtps::GUID_t& reader) {
+  const rtps::GUID_t& writer = sample.sample_identity.writer_guid();
   return {.stamp = sample.reception_timestamp.to_ns(),
-          .writer_id = writer_id(sample.sample_identity.writer_guid()),
-          .sequence = sample.sample_identity.sequence_number().to64long()};
+          .writer_id = writer_id(writer),
+          .sequence = sample.sample_identity.sequence_number().to64long(),
+          .from_own_process = writer.guidPrefix == reader.guidPrefix};
 }
 
 }  // namespace
 
 class ByteReader::Impl : private dds::DataReaderListener {
  public:
-  Impl(const Participant& participant, const TopicProfile& topic, Receive receive)
-      : participant_(participant.impl()), topic_(topic), receive_(std::move(receive)) {
+  Impl(const Participant& participant, const TopicProfile& topic, Receive receive, Gone gone)
+      : participant_(participant.impl()),
+        topic_(topic),
+        receive_(std::move(receive)),
+        gone_(std::move(gone)) {
     const dds::DataReaderQos qos = reader_qos(topic, participant_->subscriber());
     reader_ = participant_->subscriber().create_datareader(&participant_->topic(topic), qos, this,
                                                            dds::StatusMask::all());
@@ -52,6 +55,10 @@ class ByteReader::Impl : private dds::DataReaderListener {
     {
       const std::lock_guard lock(receive_mutex_);  // a callback under way ends first, and is the last
       closed_ = true;
+    }
+    {
+      const std::lock_guard lock(gone_mutex_);
+      gone_ = nullptr;
     }
     participant_->subscriber().delete_datareader(reader_);
   }
@@ -74,7 +81,7 @@ class ByteReader::Impl : private dds::DataReaderListener {
     dds::SampleInfo sample;
     while (!closed_ && reader->take_next_sample(&payload_, &sample) ==
                            eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK) {
-      if (sample.valid_data) receive(reception_of(sample));
+      if (sample.valid_data) receive(reception_of(sample, reader->guid()));
     }
   }
 
@@ -121,22 +128,34 @@ class ByteReader::Impl : private dds::DataReaderListener {
 
   void on_subscription_matched(dds::DataReader* /*reader*/,
                                const dds::SubscriptionMatchedStatus& status) override {
-    const std::lock_guard lock(mutex_);
-    counters_.writers = status.current_count;
-    ++(status.current_count_change > 0 ? counters_.matched : counters_.unmatched);
-    if (status.current_count_change < 0)
-      last_sequence_.erase(writer_id(rtps::iHandle2GUID(status.last_publication_handle)));
-    spdlog::info("transport: {}: a writer {}, now {}", topic_.name,
-                 status.current_count_change > 0 ? "matched" : "left", status.current_count);
+    const bool came = status.current_count_change > 0;
+    const WriterId writer = writer_id(rtps::iHandle2GUID(status.last_publication_handle));
+    {
+      const std::lock_guard lock(mutex_);
+      counters_.writers = status.current_count;
+      ++(came ? counters_.matched : counters_.unmatched);
+      if (!came) last_sequence_.erase(writer);
+    }
+    spdlog::info("transport: {}: a writer {}, now {}", topic_.name, came ? "matched" : "left",
+                 status.current_count);
     matched_.notify_all();
+    if (!came) tell_gone(writer);
   }
 
   void on_liveliness_changed(dds::DataReader* /*reader*/,
                              const dds::LivelinessChangedStatus& status) override {
     if (status.not_alive_count_change <= 0) return;
-    const std::lock_guard lock(mutex_);
-    ++counters_.liveliness_lost;
+    {
+      const std::lock_guard lock(mutex_);
+      ++counters_.liveliness_lost;
+    }
     spdlog::warn("transport: {}: a writer fell silent", topic_.name);
+    tell_gone(writer_id(rtps::iHandle2GUID(status.last_publication_handle)));
+  }
+
+  void tell_gone(const WriterId& writer) {
+    const std::lock_guard lock(gone_mutex_);
+    if (gone_) gone_(writer);
   }
 
   void on_requested_incompatible_qos(dds::DataReader* /*reader*/,
@@ -150,6 +169,8 @@ class ByteReader::Impl : private dds::DataReaderListener {
   std::shared_ptr<Participant::Impl> participant_;
   const TopicProfile& topic_;
   Receive receive_;
+  Gone gone_;
+  std::mutex gone_mutex_;  ///< not receive_mutex_: the middleware may hold its own while it tells of a writer
   std::mutex receive_mutex_;  ///< taken before mutex_
   bool closed_ = false;
   PayloadType::Payload payload_;
@@ -160,8 +181,8 @@ class ByteReader::Impl : private dds::DataReaderListener {
   dds::DataReader* reader_ = nullptr;  ///< last: its callbacks use all of the above
 };
 
-ByteReader::ByteReader(const Participant& participant, const TopicProfile& topic, Receive receive)
-    : impl_(std::make_unique<Impl>(participant, topic, std::move(receive))) {}
+ByteReader::ByteReader(const Participant& participant, const TopicProfile& topic, Receive receive, Gone gone)
+    : impl_(std::make_unique<Impl>(participant, topic, std::move(receive), std::move(gone))) {}
 ByteReader::~ByteReader() = default;
 
 bool ByteReader::wait_for_writers(int writers, std::chrono::milliseconds timeout) const {

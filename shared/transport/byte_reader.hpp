@@ -13,11 +13,14 @@
 
 namespace cosight::transport {
 
+using WriterId = std::array<std::uint8_t, 16>;  ///< GUID
+
 /// How a sample came. Sequences count per writer from 1; a restarted writer is a new one.
 struct Reception {
-  Stamp stamp = 0;                           ///< of this host's clock, on arrival
-  std::array<std::uint8_t, 16> writer_id{};  ///< GUID
+  Stamp stamp = 0;  ///< of this host's clock, on arrival
+  WriterId writer_id{};
   std::uint64_t sequence = 0;
+  bool from_own_process = false;  ///< its writer belongs to the same participant
 };
 
 struct SubscriberCounters {
@@ -39,9 +42,12 @@ class ByteReader {
  public:
   using Receive = std::function<Fault(std::span<const std::uint8_t>, const Reception&)>;
 
-  /// `receive` runs on a thread of the middleware, one call at a time, until the destructor returns. Throws
-  /// TransportError when the reader can't be made.
-  ByteReader(const Participant& participant, const TopicProfile& topic, Receive receive);
+  using Gone = std::function<void(const WriterId&)>;
+
+  /// `receive` runs on a thread of the middleware, one call at a time, until the destructor returns; `gone`
+  /// likewise, beside it, when a writer has left or fallen silent, once or more. Throws TransportError when
+  /// the reader can't be made.
+  ByteReader(const Participant& participant, const TopicProfile& topic, Receive receive, Gone gone = {});
   ~ByteReader();
   ByteReader(const ByteReader&) = delete;
   ByteReader& operator=(const ByteReader&) = delete;

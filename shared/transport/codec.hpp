@@ -33,6 +33,10 @@ const char* to_string(Fault fault);
 Fault encode(const ImageSample& sample, const TopicProfile& topic, std::vector<std::uint8_t>& payload);
 Fault encode(const CameraInfoSample& sample, const TopicProfile& topic, std::vector<std::uint8_t>& payload);
 Fault encode(const AhrsSample& sample, const TopicProfile& topic, std::vector<std::uint8_t>& payload);
+Fault encode(const LaserScanSample& sample, const TopicProfile& topic, std::vector<std::uint8_t>& payload);
+Fault encode(const ImuSample& sample, const TopicProfile& topic, std::vector<std::uint8_t>& payload);
+Fault encode(const WheelOdometrySample& sample, const TopicProfile& topic,
+             std::vector<std::uint8_t>& payload);
 Fault encode(const WearerPoseSample& sample, const TopicProfile& topic, std::vector<std::uint8_t>& payload);
 Fault encode(const OdometrySample& sample, const TopicProfile& topic, std::vector<std::uint8_t>& payload);
 Fault encode(const PointCloudSample& sample, const TopicProfile& topic, std::vector<std::uint8_t>& payload);
@@ -44,6 +48,9 @@ Fault encode(const HeartbeatSample& sample, const TopicProfile& topic, std::vect
 Fault decode(std::span<const std::uint8_t> payload, const TopicProfile& topic, ImageSample& sample);
 Fault decode(std::span<const std::uint8_t> payload, const TopicProfile& topic, CameraInfoSample& sample);
 Fault decode(std::span<const std::uint8_t> payload, const TopicProfile& topic, AhrsSample& sample);
+Fault decode(std::span<const std::uint8_t> payload, const TopicProfile& topic, LaserScanSample& sample);
+Fault decode(std::span<const std::uint8_t> payload, const TopicProfile& topic, ImuSample& sample);
+Fault decode(std::span<const std::uint8_t> payload, const TopicProfile& topic, WheelOdometrySample& sample);
 Fault decode(std::span<const std::uint8_t> payload, const TopicProfile& topic, WearerPoseSample& sample);
 Fault decode(std::span<const std::uint8_t> payload, const TopicProfile& topic, OdometrySample& sample);
 Fault decode(std::span<const std::uint8_t> payload, const TopicProfile& topic, PointCloudSample& sample);

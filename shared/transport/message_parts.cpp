@@ -68,6 +68,10 @@ UncertainPose from_message(const geometry_msgs::msg::PoseWithCovariance& pose) {
   return {{from_message(pose.pose().orientation()), {p.x(), p.y(), p.z()}}, from_rows<6>(pose.covariance())};
 }
 
+Fault check_finite(const Eigen::Vector3d& v) {
+  return v.allFinite() ? Fault::kNone : Fault::kNotFinite;
+}
+
 Fault check_rotation(const Eigen::Quaterniond& q) {
   if (!q.coeffs().allFinite()) return Fault::kNotFinite;
   return std::abs(q.norm() - 1.0) > 1e-3 ? Fault::kRotation : Fault::kNone;

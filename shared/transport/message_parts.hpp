@@ -19,6 +19,9 @@ namespace cosight::transport {
 
 inline constexpr std::size_t kLongestText = 256;
 
+/// sensor_msgs/Imu and PoseWithCovariance: -1 on the diagonal says that nobody knows this value.
+inline constexpr double kUnknown = -1.0;
+
 Fault to_header(Stamp stamp, std::string_view frame_id, std_msgs::msg::Header& header);
 Fault from_header(const std_msgs::msg::Header& header, Stamp& stamp);
 
@@ -42,6 +45,8 @@ template <int N>
 Eigen::Matrix<double, N, N> from_rows(const std::array<double, std::size_t{N} * N>& rows) {
   return Eigen::Map<const Eigen::Matrix<double, N, N, Eigen::RowMajor>>(rows.data());
 }
+
+Fault check_finite(const Eigen::Vector3d& v);
 
 /// Finite, and of length one within 1e-3.
 Fault check_rotation(const Eigen::Quaterniond& q);

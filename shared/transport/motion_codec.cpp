@@ -9,13 +9,6 @@ namespace cosight::transport {
 
 namespace {
 
-// sensor_msgs/Imu and PoseWithCovariance: -1 on the diagonal says that nobody knows this value.
-constexpr double kUnknown = -1.0;
-
-Fault check_finite(const Eigen::Vector3d& v) {
-  return v.allFinite() ? Fault::kNone : Fault::kNotFinite;
-}
-
 Fault check(const AhrsSample& sample) {
   return first_of(check_rotation(sample.q_WH), check_covariance<3>(sample.orientation_covariance),
                   check_finite(sample.angular_velocity_H), check_finite(sample.acceleration_H));

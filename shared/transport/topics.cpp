@@ -14,6 +14,7 @@ constexpr std::size_t kLargestMap = std::size_t{32} << 20;
 // usual, 2 to 4 % are pushed out of the history before they are repaired at 5 % loss.
 constexpr int kFrameDepth = 30;
 constexpr int kAhrsDepth = 200;
+constexpr int kScanDepth = 50;
 constexpr int kReportDepth = 30;
 constexpr int kLatest = 1;
 
@@ -61,6 +62,22 @@ const TopicProfile kRobotCameraInfo{.name = "rt/cosight/robot/camera_info",
                                     .frame_id = frames::kRobotCamera,
                                     .depth = kLatest,
                                     .latched = true};
+const TopicProfile kRobotLaserFront{.name = "rt/cosight/robot/laser_front",
+                                    .kind = MessageKind::kLaserScan,
+                                    .frame_id = frames::kLaserFront,
+                                    .depth = kScanDepth};
+const TopicProfile kRobotLaserRear{.name = "rt/cosight/robot/laser_rear",
+                                   .kind = MessageKind::kLaserScan,
+                                   .frame_id = frames::kLaserRear,
+                                   .depth = kScanDepth};
+const TopicProfile kRobotImu{.name = "rt/cosight/robot/imu",
+                             .kind = MessageKind::kImu,
+                             .frame_id = frames::kRobotImu,
+                             .depth = kAhrsDepth};
+const TopicProfile kRobotWheelOdometry{.name = "rt/cosight/robot/wheel_odometry",
+                                       .kind = MessageKind::kOdometry,
+                                       .frame_id = frames::kWheelOdometry,
+                                       .depth = kScanDepth};
 const TopicProfile kRobotWearerPose{.name = "rt/cosight/robot/wearer_pose",
                                     .kind = MessageKind::kPoseWithCovarianceStamped,
                                     .frame_id = frames::kRobotCamera,
@@ -98,6 +115,8 @@ std::string_view type_name(MessageKind kind) {
       return "sensor_msgs::msg::dds_::CameraInfo_";
     case MessageKind::kImu:
       return "sensor_msgs::msg::dds_::Imu_";
+    case MessageKind::kLaserScan:
+      return "sensor_msgs::msg::dds_::LaserScan_";
     case MessageKind::kPoseWithCovarianceStamped:
       return "geometry_msgs::msg::dds_::PoseWithCovarianceStamped_";
     case MessageKind::kOdometry:
@@ -120,6 +139,10 @@ std::span<const TopicProfile* const> all_topics() {
                                       &profiles::kWearableHeartbeat,
                                       &profiles::kRobotImageCompressed,
                                       &profiles::kRobotCameraInfo,
+                                      &profiles::kRobotLaserFront,
+                                      &profiles::kRobotLaserRear,
+                                      &profiles::kRobotImu,
+                                      &profiles::kRobotWheelOdometry,
                                       &profiles::kRobotWearerPose,
                                       &profiles::kRobotOdometry,
                                       &profiles::kRobotMap,

@@ -15,6 +15,7 @@ enum class MessageKind {
   kCompressedImage,
   kCameraInfo,
   kImu,
+  kLaserScan,
   kPoseWithCovarianceStamped,
   kOdometry,
   kPointCloud2,
@@ -47,6 +48,11 @@ struct Topic {
 namespace frames {
 inline constexpr std::string_view kWorld = "map";                   ///< W
 inline constexpr std::string_view kRobotCamera = "robot_camera";    ///< S, optical
+inline constexpr std::string_view kRobotBody = "base_link";         ///< B, x forward
+inline constexpr std::string_view kWheelOdometry = "odom";          ///< O: B where the wheels began to count
+inline constexpr std::string_view kRobotImu = "robot_imu";          ///< I
+inline constexpr std::string_view kLaserFront = "laser_front";      ///< L
+inline constexpr std::string_view kLaserRear = "laser_rear";        ///< L
 inline constexpr std::string_view kWearerCamera = "wearer_camera";  ///< F, optical
 inline constexpr std::string_view kWearerHead = "wearer_head";      ///< H, x forward
 }  // namespace frames
@@ -59,6 +65,10 @@ extern const TopicProfile kWearableImu;
 extern const TopicProfile kWearableHeartbeat;
 extern const TopicProfile kRobotImageCompressed;
 extern const TopicProfile kRobotCameraInfo;
+extern const TopicProfile kRobotLaserFront;
+extern const TopicProfile kRobotLaserRear;
+extern const TopicProfile kRobotImu;
+extern const TopicProfile kRobotWheelOdometry;
 extern const TopicProfile kRobotWearerPose;
 extern const TopicProfile kRobotOdometry;
 extern const TopicProfile kRobotMap;
@@ -76,6 +86,10 @@ inline constexpr Topic<AhrsSample> kWearableImu{profiles::kWearableImu};
 inline constexpr Topic<HeartbeatSample> kWearableHeartbeat{profiles::kWearableHeartbeat};
 inline constexpr Topic<ImageSample> kRobotImageCompressed{profiles::kRobotImageCompressed};
 inline constexpr Topic<CameraInfoSample> kRobotCameraInfo{profiles::kRobotCameraInfo};
+inline constexpr Topic<LaserScanSample> kRobotLaserFront{profiles::kRobotLaserFront};
+inline constexpr Topic<LaserScanSample> kRobotLaserRear{profiles::kRobotLaserRear};
+inline constexpr Topic<ImuSample> kRobotImu{profiles::kRobotImu};
+inline constexpr Topic<WheelOdometrySample> kRobotWheelOdometry{profiles::kRobotWheelOdometry};
 inline constexpr Topic<WearerPoseSample> kRobotWearerPose{profiles::kRobotWearerPose};
 inline constexpr Topic<OdometrySample> kRobotOdometry{profiles::kRobotOdometry};
 inline constexpr Topic<PointCloudSample> kRobotMap{profiles::kRobotMap};

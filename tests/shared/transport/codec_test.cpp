@@ -53,6 +53,10 @@ TEST_F(Codec, EverySampleComesBackAsItWent) {
     same(topics::kWearableCameraInfo, example.camera_info(distortion));
   }
   same(topics::kWearableImu, example.ahrs());
+  same(topics::kRobotLaserFront, example.scan(133));
+  same(topics::kRobotLaserFront, example.scan(0));
+  same(topics::kRobotImu, example.imu());
+  same(topics::kRobotWheelOdometry, example.wheel_odometry());
   same(topics::kRobotWearerPose, example.wearer_pose(true));
   same(topics::kRobotOdometry, example.odometry());
   same(topics::kRobotMap, example.cloud(100));
@@ -70,6 +74,32 @@ TEST_F(Codec, PositionOnlyPoseLosesItsOrientationAndNothingElse) {
   EXPECT_EQ((back.T_SF.covariance.topLeftCorner<3, 3>()), (sample.T_SF.covariance.topLeftCorner<3, 3>()));
   EXPECT_TRUE((back.T_SF.covariance.rightCols<3>().isZero()));
   EXPECT_TRUE((back.T_SF.covariance.bottomRows<3>().isZero()));
+}
+
+TEST_F(Codec, RangesMayBeInfiniteOrNoNumberForNothingCameBack) {
+  LaserScanSample scan = example.scan(3);
+  scan.ranges[1] = std::numeric_limits<float>::infinity();
+  scan.ranges[2] = std::numeric_limits<float>::quiet_NaN();
+  const LaserScanSample back = there_and_back(topics::kRobotLaserFront, scan);
+  ASSERT_EQ(back.ranges.size(), 3U);
+  EXPECT_TRUE(std::isinf(back.ranges[1]));
+  EXPECT_TRUE(std::isnan(back.ranges[2]));
+}
+
+TEST_F(Codec, ALaserIsKnownByItsTopic) {
+  EXPECT_EQ(there_and_back(topics::kRobotLaserRear, example.scan(3)).laser, "laser_rear");
+}
+
+TEST_F(Codec, AScanOfMoreRaysThanAnyLaserHasIsRefused) {
+  EXPECT_EQ(encoding(topics::kRobotLaserFront, example.scan(10'001)), Fault::kDimensions);
+}
+
+TEST_F(Codec, WheelsThatWentRoundMoreThanOnceKeepTheirHeading) {
+  WheelOdometrySample sample = example.wheel_odometry();
+  sample.yaw = 7.0;
+  const double yaw = there_and_back(topics::kRobotWheelOdometry, sample).yaw;
+  EXPECT_NEAR(std::remainder(yaw - 7.0, 2.0 * std::acos(-1.0)), 0.0, 1e-12);
+  EXPECT_LE(std::abs(yaw), std::acos(-1.0));
 }
 
 TEST_F(Codec, StampsBeforeTheEpochKeepTheirNanoseconds) {
@@ -99,6 +129,15 @@ TEST_F(Codec, NotANumberIsRefusedWhereverItStands) {
   OdometrySample odometry = example.odometry();
   odometry.twist_covariance(5, 5) = kNan;
   EXPECT_EQ(encoding(topics::kRobotOdometry, odometry), Fault::kNotFinite);
+  LaserScanSample scan = example.scan(3);
+  scan.angle_increment = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(encoding(topics::kRobotLaserFront, scan), Fault::kNotFinite);
+  ImuSample imu = example.imu();
+  imu.angular_velocity_I.x() = kNan;
+  EXPECT_EQ(encoding(topics::kRobotImu, imu), Fault::kNotFinite);
+  WheelOdometrySample wheels = example.wheel_odometry();
+  wheels.yaw = kInfinity;
+  EXPECT_EQ(encoding(topics::kRobotWheelOdometry, wheels), Fault::kNotFinite);
   WearerPoseSample pose = example.wearer_pose(false);
   pose.T_SF.T.p.z() = kInfinity;
   EXPECT_EQ(encoding(topics::kRobotWearerPose, pose), Fault::kNotFinite);
@@ -207,6 +246,9 @@ class HostilePayload : public ::testing::Test {
     add(topics::kWearableImage, example.image(ImageEncoding::kMono8, 30, 20));
     add(topics::kWearableCameraInfo, example.camera_info(Distortion::kRadtan));
     add(topics::kWearableImu, example.ahrs());
+    add(topics::kRobotLaserFront, example.scan(20));
+    add(topics::kRobotImu, example.imu());
+    add(topics::kRobotWheelOdometry, example.wheel_odometry());
     add(topics::kRobotWearerPose, example.wearer_pose(true));
     add(topics::kRobotOdometry, example.odometry());
     add(topics::kRobotMap, example.cloud(10));

@@ -45,6 +45,31 @@ inline void expect_equal(const AhrsSample& a, const AhrsSample& b) {
   EXPECT_EQ(a.acceleration_H, b.acceleration_H);
 }
 
+inline void expect_equal(const LaserScanSample& a, const LaserScanSample& b) {
+  EXPECT_EQ(a.stamp, b.stamp);
+  EXPECT_EQ(a.laser, b.laser);
+  EXPECT_EQ(a.angle_min, b.angle_min);
+  EXPECT_EQ(a.angle_increment, b.angle_increment);
+  EXPECT_EQ(a.range_min, b.range_min);
+  EXPECT_EQ(a.range_max, b.range_max);
+  EXPECT_EQ(a.ranges, b.ranges);
+}
+
+inline void expect_equal(const ImuSample& a, const ImuSample& b) {
+  EXPECT_EQ(a.stamp, b.stamp);
+  EXPECT_EQ(a.angular_velocity_I, b.angular_velocity_I);
+  EXPECT_EQ(a.acceleration_I, b.acceleration_I);
+}
+
+inline void expect_equal(const WheelOdometrySample& a, const WheelOdometrySample& b) {
+  EXPECT_EQ(a.stamp, b.stamp);
+  EXPECT_EQ(a.x, b.x);
+  EXPECT_EQ(a.y, b.y);
+  EXPECT_NEAR(a.yaw, b.yaw, 1e-12);
+  EXPECT_EQ(a.speed, b.speed);
+  EXPECT_EQ(a.turn_rate, b.turn_rate);
+}
+
 inline void expect_equal(const WearerPoseSample& a, const WearerPoseSample& b) {
   EXPECT_EQ(a.stamp, b.stamp);
   EXPECT_EQ(a.has_orientation, b.has_orientation);

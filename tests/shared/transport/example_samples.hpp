@@ -67,6 +67,18 @@ struct ExampleSamples {
     return {kStamp, T.T.q, covariance<3>(), vector(), vector()};
   }
 
+  LaserScanSample scan(std::size_t points) {
+    const auto value = [this] { return static_cast<float>(number()); };
+    LaserScanSample sample{kStamp, "laser_front", value(), value(), value(), value(), {}};
+    for (std::size_t i = 0; i < points; ++i)
+      sample.ranges.push_back(value());
+    return sample;
+  }
+
+  ImuSample imu() { return {kStamp, vector(), vector()}; }
+
+  WheelOdometrySample wheel_odometry() { return {kStamp, number(), number(), number(), number(), number()}; }
+
   WearerPoseSample wearer_pose(bool has_orientation) { return {kStamp, pose(), has_orientation}; }
 
   OdometrySample odometry() { return {kStamp, pose(), vector(), vector(), covariance<6>()}; }

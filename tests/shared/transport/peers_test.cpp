@@ -6,6 +6,7 @@
 #include <array>
 #include <csignal>
 #include <fstream>
+#include <mutex>
 #include <optional>
 #include <random>
 #include <sstream>
@@ -48,6 +49,19 @@ class PeerProcess {
 TEST(Peers, KilledPublisherIsNoticedAndItsSuccessorHeard) {
   const Participant participant(loopback("robot"));
   const InboxOf<HeartbeatSample> heartbeats(participant, topics::kWearableHeartbeat);
+  std::mutex mutex;
+  WriterId last_heard{};
+  std::optional<WriterId> gone;
+  const Subscriber<HeartbeatSample> watch(
+      participant, topics::kWearableHeartbeat,
+      [&](HeartbeatSample&&, const Reception& reception) {
+        const std::lock_guard lock(mutex);
+        last_heard = reception.writer_id;
+      },
+      [&](const WriterId& writer) {
+        const std::lock_guard lock(mutex);
+        gone = writer;
+      });
   InboxOf<ImageSample> frames(participant, topics::kWearableImageCompressed);
 
   std::optional<PeerProcess> peer(std::in_place);
@@ -59,6 +73,11 @@ TEST(Peers, KilledPublisherIsNoticedAndItsSuccessorHeard) {
   // Liveliness falls after 0.5 s, long before the participant is given up after 2 s.
   ASSERT_TRUE(eventually([&] { return heartbeats.subscriber.counters().liveliness_lost == 1; }, 10000ms));
   EXPECT_EQ(heartbeats.subscriber.counters().writers, 1);
+  const auto says_who = [&] {
+    const std::lock_guard lock(mutex);
+    return gone == last_heard;
+  };
+  EXPECT_TRUE(eventually(says_who));
   ASSERT_TRUE(eventually([&] { return heartbeats.subscriber.counters().writers == 0; }, 10000ms));
   ASSERT_TRUE(eventually([&] { return participant.peers().lost == 1; }, 10000ms));
   const auto before = frames.received();
@@ -101,6 +120,20 @@ TEST(Peers, PublisherWithoutAnyReaderNeitherBlocksNorFails) {
     ASSERT_TRUE(publisher.publish(frame));
   EXPECT_EQ(publisher.counters().sent, 200U);
   EXPECT_EQ(publisher.counters().stalled, 0U);
+}
+
+TEST(Peers, AProcessKnowsWhatItSentItself) {
+  const Participant here(loopback("here"));
+  const Participant there(loopback("there"));
+  InboxOf<AhrsSample> own(here, topics::kWearableImu);
+  InboxOf<AhrsSample> other(there, topics::kWearableImu);
+  Publisher<AhrsSample> publisher(here, topics::kWearableImu);
+  ASSERT_TRUE(publisher.wait_for_readers(2, 5000ms));
+  publisher.publish(ExampleSamples().ahrs());
+  ASSERT_TRUE(own.wait_for(1));
+  ASSERT_TRUE(other.wait_for(1));
+  EXPECT_TRUE(own.received().front().reception.from_own_process);
+  EXPECT_FALSE(other.received().front().reception.from_own_process);
 }
 
 TEST(Peers, NoiseFromAPeerIsCountedAndTheNextGoodSampleComesThrough) {
