@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
+#include "robot_agent/slam/rig_refinement.hpp"
 #include "robot_agent/slam/stopwatch.hpp"
 #include "robot_agent/slam/wearer_silhouette.hpp"
 #include "robot_agent/vision/patch_warp.hpp"
@@ -53,6 +55,12 @@ double usual_depth(const std::vector<ekf::PixelPrediction>& predictions) {
   return *middle;
 }
 
+/// An orientation of Cf that leaves wide bands to search.
+bool has_wide_bands(const UncertainPose& T_SF) {
+  constexpr double kWide = 0.4 * std::numbers::pi / 180.0;
+  return T_SF.covariance.bottomRightCorner<3, 3>().trace() > 3.0 * kWide * kWide;
+}
+
 /// Half of the nearest landmark's depth [m], 0 without any: a band that goes on to the lens would cost ten
 /// times as much, for points that the next frames see anyway.
 double expected_near(const std::vector<ekf::PixelPrediction>& predictions) {
@@ -98,11 +106,12 @@ FrameEstimate CollaborativeSlam::process(const FrameBundle& bundle) {
     sightings = search_.find(*bundle.image, filter_, tracks_, known_motion, silhouette_, estimate.search);
   watch.lap(estimate.timings.search);
 
-  const auto view = wearer_view(bundle, sightings, estimate);  // overlap
+  auto view = wearer_view(bundle, sightings, estimate);  // overlap
   watch.lap(estimate.timings.overlap);
 
-  const auto measurements =
-      pseudo_stereo_.measure(view, bundle.image.get(), sightings, filter_, estimate.pseudo_stereo);
+  PseudoStereo::Matches matches;
+  if (view) matches = match_in_wearer(*view, *bundle.image, sightings, estimate.pseudo_stereo);
+  const auto measurements = pseudo_stereo_.measure(view, sightings, matches, estimate.pseudo_stereo);
   watch.lap(estimate.timings.pseudo_stereo);
 
   const auto accepted = validate(measurements, estimate);
@@ -183,8 +192,39 @@ std::optional<StereoView> CollaborativeSlam::wearer_view(const FrameBundle& bund
               options_.pseudo_stereo.wearer_pixel_sigma};
   view.overlap = estimate.overlap;
   view.near = std::max(options_.pseudo_stereo.near, expected_near(search_.predictions()));
+  view.up_S = filter_.camera().q_WS.conjugate() * Eigen::Vector3d::UnitZ();
   view.silhouette = silhouette_;
   return view;
+}
+
+/// The known landmarks in Cf, and with them, or with new corners where they are few, a better pose of Cf.
+PseudoStereo::Matches CollaborativeSlam::match_in_wearer(StereoView& view, const GrayImage& image,
+                                                         const std::vector<Sighting>& sightings,
+                                                         PseudoStereoCounts& counts) {
+  auto matches = pseudo_stereo_.match(view, image, sightings, filter_, tracks_, counts);
+  if (!options_.pseudo_stereo.refine_wearer_pose) return matches;
+  std::vector<ekf::StereoMatch> evidence;
+  for (const auto& match : matches) {
+    if (match) evidence.push_back(*match);
+  }
+  const int missing = options_.pseudo_stereo.min_refining_matches - static_cast<int>(evidence.size());
+  if (missing > 0 && has_wide_bands(view.rig.T_SF)) {
+    constexpr int kTriesPerMatch = 5;
+    const auto guesses = new_points_.guesses(view, image, kTriesPerMatch * missing);
+    evidence.insert(evidence.end(), guesses.begin(), guesses.end());
+  }
+  RigRefinementOptions refinement;
+  refinement.seed = options_.seed;
+  const auto refined = refine_rig(view.rig, evidence, refinement);
+  if (!refined) return matches;
+  view.rig.T_SF = refined->T_SF;
+  auto is_inlier = refined->is_inlier.begin();
+  for (auto& match : matches) {
+    if (!match || *is_inlier++ != 0) continue;
+    match.reset();
+    ++counts.epipolar;
+  }
+  return matches;
 }
 
 std::vector<ekf::Measurement> CollaborativeSlam::validate(const std::vector<ekf::Measurement>& measurements,
@@ -293,7 +333,11 @@ void CollaborativeSlam::begin(const GrayImage& image, const std::optional<Stereo
 }
 
 std::vector<std::optional<ekf::LandmarkId>> CollaborativeSlam::start_landmarks(
-    const std::vector<ekf::StereoMatch>& matches, const ekf::StereoRig& rig) {
+    const std::vector<NewPoint>& points, const ekf::StereoRig& rig) {
+  std::vector<ekf::StereoMatch> matches;
+  matches.reserve(points.size());
+  for (const NewPoint& point : points)
+    matches.push_back(point.match);
   if (options_.pseudo_stereo.correlated_starts) return filter_.add_pseudo_stereo_landmarks(matches, rig);
   std::vector<std::optional<ekf::LandmarkId>> ids;
   ids.reserve(matches.size());
@@ -304,8 +348,8 @@ std::vector<std::optional<ekf::LandmarkId>> CollaborativeSlam::start_landmarks(
 
 int CollaborativeSlam::add_pseudo_stereo(const GrayImage& image, const StereoView& view, int places,
                                          PseudoStereoCounts& counts) {
-  const auto matches = new_points_.find(view, image, tracks_.found_pixels(), places, counts);
-  const auto ids = start_landmarks(matches, view.rig);
+  const auto points = new_points_.find(view, image, tracks_.found_pixels(), places, counts);
+  const auto ids = start_landmarks(points, view.rig);
   int added = 0;
   for (std::size_t i = 0; i < ids.size(); ++i) {
     if (!ids[i]) {
@@ -314,9 +358,10 @@ int CollaborativeSlam::add_pseudo_stereo(const GrayImage& image, const StereoVie
     }
     LandmarkTrack track;
     track.id = *ids[i];
-    track.reference = vision::cut_reference(image, matches[i].pixel_S);
+    track.reference = vision::cut_reference(image, points[i].match.pixel_S);
     track.T_WS_reference = filter_.camera().T_WS();
-    track.pixel = matches[i].pixel_S;
+    if (points[i].normal_S) track.normal_W = filter_.camera().q_WS * *points[i].normal_S;
+    track.pixel = points[i].match.pixel_S;
     track.found = true;
     tracks_.add(std::move(track));
     ++added;

@@ -48,6 +48,8 @@ class CollaborativeSlam {
   bool may_use_wearer(Stamp stamp) const;
   std::optional<StereoView> wearer_view(const FrameBundle& bundle, const std::vector<Sighting>& sightings,
                                         FrameEstimate& estimate) const;
+  PseudoStereo::Matches match_in_wearer(StereoView& view, const GrayImage& image,
+                                        const std::vector<Sighting>& sightings, PseudoStereoCounts& counts);
   std::vector<ekf::Measurement> validate(const std::vector<ekf::Measurement>& measurements,
                                          FrameEstimate& estimate);
   void note_fused(const std::vector<Sighting>& sightings, const ekf::UpdateReport& report,
@@ -55,7 +57,7 @@ class CollaborativeSlam {
   void renew_map(const GrayImage& image, const std::optional<StereoView>& view, FrameEstimate& estimate,
                  Stopwatch& watch);
   void begin(const GrayImage& image, const std::optional<StereoView>& view, FrameEstimate& estimate);
-  std::vector<std::optional<ekf::LandmarkId>> start_landmarks(const std::vector<ekf::StereoMatch>& matches,
+  std::vector<std::optional<ekf::LandmarkId>> start_landmarks(const std::vector<NewPoint>& points,
                                                               const ekf::StereoRig& rig);
   int add_pseudo_stereo(const GrayImage& image, const StereoView& view, int places,
                         PseudoStereoCounts& counts);

@@ -79,7 +79,9 @@ std::optional<vision::PatchPyramid> LandmarkSearch::predicted_patch(const ekf::F
   if (!landmark) return std::nullopt;
   const vision::View reference{filter.camera_model(), track.T_WS_reference};
   const vision::View present{filter.camera_model(), filter.camera().T_WS()};
-  const auto A = vision::predicted_warp(reference, present, finite_point(*landmark));
+  const Eigen::Vector3d p_W = finite_point(*landmark);
+  const auto A = track.normal_W ? vision::predicted_warp(reference, present, p_W, *track.normal_W)
+                                : vision::predicted_warp(reference, present, p_W);
   return vision::warp_pyramid(track.reference, A.value_or(Eigen::Matrix2d::Identity()), kPatchSide);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "robot_agent/ekf/measurement.hpp"
@@ -14,6 +15,7 @@ struct LandmarkTrack {
   ekf::LandmarkId id = 0;
   vision::ReferencePatch reference;
   Pose T_WS_reference;                              ///< of the SLAM camera when the reference patch was cut
+  std::optional<Eigen::Vector3d> normal_W;          ///< of its surface, once two views have shown it
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();  ///< where Cs saw it last [px]
   bool found = false;                               ///< in the present frame
   int observations = 1;                             ///< frames in which it was fused

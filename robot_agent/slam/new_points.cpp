@@ -41,18 +41,18 @@ NewPoints::NewPoints(const PseudoStereoOptions& options, int min_distance_px)
       refinement_(band_search_options(options)),
       extractor_(make_extractor(options.matching)) {}
 
-std::vector<ekf::StereoMatch> NewPoints::find(const StereoView& view, const GrayImage& image_S,
-                                              const std::vector<Eigen::Vector2d>& occupied, int wanted,
-                                              PseudoStereoCounts& counts) {
+std::vector<NewPoint> NewPoints::find(const StereoView& view, const GrayImage& image_S,
+                                      const std::vector<Eigen::Vector2d>& occupied, int wanted,
+                                      PseudoStereoCounts& counts) {
   if (wanted <= 0) return {};
   return extractor_ ? find_by_descriptors(view, image_S, occupied, wanted, counts)
                     : find_by_band(view, image_S, occupied, wanted, counts);
 }
 
-std::vector<ekf::StereoMatch> NewPoints::find_by_band(const StereoView& view, const GrayImage& image_S,
-                                                      const std::vector<Eigen::Vector2d>& occupied,
-                                                      int wanted, PseudoStereoCounts& counts) {
-  std::vector<ekf::StereoMatch> matches;
+std::vector<NewPoint> NewPoints::find_by_band(const StereoView& view, const GrayImage& image_S,
+                                              const std::vector<Eigen::Vector2d>& occupied, int wanted,
+                                              PseudoStereoCounts& counts) {
+  std::vector<NewPoint> matches;
   constexpr int kTriesPerMatch = 2;
   for (const vision::Corner& corner :
        corners_.detect(image_S, occupied, kTriesPerMatch * wanted, &view.overlap.roi_in_S)) {
@@ -63,9 +63,9 @@ std::vector<ekf::StereoMatch> NewPoints::find_by_band(const StereoView& view, co
   return matches;
 }
 
-std::vector<ekf::StereoMatch> NewPoints::find_by_descriptors(const StereoView& view, const GrayImage& image_S,
-                                                             std::vector<Eigen::Vector2d> occupied,
-                                                             int wanted, PseudoStereoCounts& counts) {
+std::vector<NewPoint> NewPoints::find_by_descriptors(const StereoView& view, const GrayImage& image_S,
+                                                     std::vector<Eigen::Vector2d> occupied, int wanted,
+                                                     PseudoStereoCounts& counts) {
   const auto features_S =
       extractor_->detect_and_describe(image_S, view.overlap.roi_in_S, options_.max_features);
   const auto features_F =
@@ -86,13 +86,13 @@ std::vector<ekf::StereoMatch> NewPoints::find_by_descriptors(const StereoView& v
            std::none_of(occupied.begin(), occupied.end(),
                         [&](const auto& other) { return (other - pixel).norm() < min_distance_px_; });
   };
-  std::vector<ekf::StereoMatch> matches;
+  std::vector<NewPoint> matches;
   for (const vision::DescriptorMatch& pair : found.matches) {
     const ekf::StereoMatch rough{features_S.pixels[pair.index_S], features_F.pixels[pair.index_F]};
     if (static_cast<int>(matches.size()) == wanted || !is_free(rough.pixel_S)) {
       ++counts.redundant;
     } else if (const auto match = refine(view, image_S, rough, counts)) {
-      matches.push_back(*match);
+      matches.push_back({*match, std::nullopt});
       occupied.push_back(match->pixel_S);
     }
   }
@@ -112,25 +112,46 @@ std::optional<vision::EpipolarBand> NewPoints::band_of(const StereoView& view,
                                        band);
 }
 
-std::optional<ekf::StereoMatch> NewPoints::match_corner(const StereoView& view, const GrayImage& image_S,
-                                                        const Eigen::Vector2d& pixel_S,
-                                                        PseudoStereoCounts& counts) {
+vision::PatchMatch NewPoints::search_band(const StereoView& view, const GrayImage& image_S,
+                                          const Eigen::Vector2d& pixel_S, const vision::EpipolarBand& band) {
+  const vision::ReferencePatch patch = vision::cut_reference(image_S, pixel_S);
+  const vision::View slam{view.rig.camera_S, Pose{}};
+  const vision::View wearer{view.rig.camera_F, view.rig.T_SF.T};
+  const Eigen::Vector3d ray_S = view.rig.camera_S.unproject(pixel_S).value_or(Eigen::Vector3d::UnitZ());
+  normals_S_ = vision::surfaces_along(ray_S, view.up_S);
+  return band_search_.find(*view.image_F, {patch, slam, slam, wearer, pixel_S, normals_S_}, band);
+}
+
+std::vector<ekf::StereoMatch> NewPoints::guesses(const StereoView& view, const GrayImage& image_S,
+                                                 int wanted) {
+  std::vector<ekf::StereoMatch> matches;
+  for (const vision::Corner& corner : corners_.detect(image_S, {}, wanted, &view.overlap.roi_in_S)) {
+    const bool hidden = contains(view.silhouette, corner.pixel);
+    const auto band = hidden ? std::nullopt : band_of(view, corner.pixel);
+    if (!band) continue;
+    const auto found = search_band(view, image_S, corner.pixel, *band);
+    if (found || found.outcome == vision::SearchOutcome::kAmbiguous)
+      matches.push_back({corner.pixel, found.pixel});
+  }
+  return matches;
+}
+
+std::optional<NewPoint> NewPoints::match_corner(const StereoView& view, const GrayImage& image_S,
+                                                const Eigen::Vector2d& pixel_S, PseudoStereoCounts& counts) {
   ++counts.described;
   const auto band = band_of(view, pixel_S);
   if (!band) {
     ++counts.epipolar;
     return std::nullopt;
   }
-  const vision::ReferencePatch patch = vision::cut_reference(image_S, pixel_S);
-  const vision::View slam{view.rig.camera_S, Pose{}};
-  const vision::View wearer{view.rig.camera_F, view.rig.T_SF.T};
-  const auto found = band_search_.find(*view.image_F, {patch, slam, slam, wearer, pixel_S}, *band);
+  const auto found = search_band(view, image_S, pixel_S, *band);
   if (!found) {
     ++counts.ratio_test;
     return std::nullopt;
   }
   const ekf::StereoMatch match{pixel_S, found.pixel};
-  return accept(view, match, counts) ? std::optional(match) : std::nullopt;
+  if (!accept(view, match, counts)) return std::nullopt;
+  return NewPoint{match, normals_S_[band_search_.best_normal()]};
 }
 
 std::optional<ekf::StereoMatch> NewPoints::refine(const StereoView& view, const GrayImage& image_S,

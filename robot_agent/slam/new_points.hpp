@@ -17,6 +17,12 @@
 
 namespace cosight::slam {
 
+/// A new point in both cameras, and which way its surface faces (axes of S) where the match has shown it.
+struct NewPoint {
+  ekf::StereoMatch match;
+  std::optional<Eigen::Vector3d> normal_S;
+};
+
 /// New points that both cameras see, inside the overlap (C section 2): corners of Cs by ZNCC along their
 /// epipolar band, or features of both by descriptors that compete within the band.
 class NewPoints {
@@ -24,20 +30,26 @@ class NewPoints {
   NewPoints(const PseudoStereoOptions& options, int min_distance_px);
 
   /// At most `wanted`, away from the `occupied` pixels of Cs and from each other.
-  std::vector<ekf::StereoMatch> find(const StereoView& view, const GrayImage& image_S,
-                                     const std::vector<Eigen::Vector2d>& occupied, int wanted,
-                                     PseudoStereoCounts& counts);
+  std::vector<NewPoint> find(const StereoView& view, const GrayImage& image_S,
+                             const std::vector<Eigen::Vector2d>& occupied, int wanted,
+                             PseudoStereoCounts& counts);
+
+  /// Corners of Cs inside the overlap with the best place in their band, however wide and however ambiguous:
+  /// for a pose of Cf that is to be found, not for depth.
+  std::vector<ekf::StereoMatch> guesses(const StereoView& view, const GrayImage& image_S, int wanted);
 
  private:
-  std::vector<ekf::StereoMatch> find_by_band(const StereoView& view, const GrayImage& image_S,
-                                             const std::vector<Eigen::Vector2d>& occupied, int wanted,
-                                             PseudoStereoCounts& counts);
-  std::vector<ekf::StereoMatch> find_by_descriptors(const StereoView& view, const GrayImage& image_S,
-                                                    std::vector<Eigen::Vector2d> occupied, int wanted,
-                                                    PseudoStereoCounts& counts);
+  std::vector<NewPoint> find_by_band(const StereoView& view, const GrayImage& image_S,
+                                     const std::vector<Eigen::Vector2d>& occupied, int wanted,
+                                     PseudoStereoCounts& counts);
+  std::vector<NewPoint> find_by_descriptors(const StereoView& view, const GrayImage& image_S,
+                                            std::vector<Eigen::Vector2d> occupied, int wanted,
+                                            PseudoStereoCounts& counts);
   std::optional<vision::EpipolarBand> band_of(const StereoView& view, const Eigen::Vector2d& pixel_S) const;
-  std::optional<ekf::StereoMatch> match_corner(const StereoView& view, const GrayImage& image_S,
-                                               const Eigen::Vector2d& pixel_S, PseudoStereoCounts& counts);
+  vision::PatchMatch search_band(const StereoView& view, const GrayImage& image_S,
+                                 const Eigen::Vector2d& pixel_S, const vision::EpipolarBand& band);
+  std::optional<NewPoint> match_corner(const StereoView& view, const GrayImage& image_S,
+                                       const Eigen::Vector2d& pixel_S, PseudoStereoCounts& counts);
   std::optional<ekf::StereoMatch> refine(const StereoView& view, const GrayImage& image_S,
                                          const ekf::StereoMatch& rough, PseudoStereoCounts& counts);
   bool accept(const StereoView& view, const ekf::StereoMatch& match, PseudoStereoCounts& counts) const;
@@ -46,6 +58,7 @@ class NewPoints {
   int min_distance_px_;
   vision::CornerDetector corners_;
   vision::BandSearch band_search_;
+  std::array<Eigen::Vector3d, vision::kSurfaces> normals_S_;  ///< tried in the last search of a band
   vision::ActiveSearch refinement_;
   std::unique_ptr<vision::DescriptorExtractor> extractor_;  ///< null: by band
 };

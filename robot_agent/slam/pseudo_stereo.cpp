@@ -52,26 +52,22 @@ vision::SearchOptions band_search_options(const PseudoStereoOptions& options) {
 PseudoStereo::PseudoStereo(const PseudoStereoOptions& options, double pixel_sigma)
     : options_(options), pixel_sigma_(pixel_sigma), search_(band_search_options(options)) {}
 
-std::vector<ekf::Measurement> PseudoStereo::measure(const std::optional<StereoView>& view,
-                                                    const GrayImage* image_S,
-                                                    const std::vector<Sighting>& sightings,
-                                                    const ekf::Filter& filter, PseudoStereoCounts& counts) {
-  std::vector<ekf::Measurement> measurements;
-  measurements.reserve(sightings.size());
-  for (const Sighting& sighting : sightings) {
-    const bool shared = view && contains(view->overlap.roi_in_S, sighting.pixel);
-    const auto point = shared ? measure_point(*view, *image_S, sighting, filter, counts) : std::nullopt;
-    measurements.push_back(point ? ekf::Measurement::point(sighting.landmark, *point)
-                                 : ekf::Measurement::pixel(sighting.landmark, sighting.pixel, pixel_sigma_));
+PseudoStereo::Matches PseudoStereo::match(const StereoView& view, const GrayImage& image_S,
+                                          const std::vector<Sighting>& sightings, const ekf::Filter& filter,
+                                          LandmarkTracks& tracks, PseudoStereoCounts& counts) {
+  Matches matches(sightings.size());
+  for (std::size_t i = 0; i < sightings.size(); ++i) {
+    if (!contains(view.overlap.roi_in_S, sightings[i].pixel)) continue;
+    if (LandmarkTrack* track = tracks.find(sightings[i].landmark))
+      matches[i] = match_landmark(view, image_S, sightings[i], filter, *track, counts);
   }
-  return measurements;
+  return matches;
 }
 
-std::optional<ekf::PointMeasurement> PseudoStereo::measure_point(const StereoView& view,
-                                                                 const GrayImage& image_S,
-                                                                 const Sighting& sighting,
-                                                                 const ekf::Filter& filter,
-                                                                 PseudoStereoCounts& counts) {
+std::optional<ekf::StereoMatch> PseudoStereo::match_landmark(const StereoView& view, const GrayImage& image_S,
+                                                             const Sighting& sighting,
+                                                             const ekf::Filter& filter, LandmarkTrack& track,
+                                                             PseudoStereoCounts& counts) {
   ++counts.described;
   const auto p_S = filter.predict_point(sighting.landmark);
   const auto prediction = p_S ? predict_in_wearer(view.rig, *p_S) : std::nullopt;
@@ -80,23 +76,62 @@ std::optional<ekf::PointMeasurement> PseudoStereo::measure_point(const StereoVie
     return std::nullopt;
   }
   // Both images are of one moment: the patch comes from the present one, not from the landmark's past.
-  const auto A =
-      vision::predicted_warp({view.rig.camera_S, Pose{}}, {view.rig.camera_F, view.rig.T_SF.T}, p_S->p_S);
-  const auto patch =
-      A ? vision::warp_pyramid(vision::cut_reference(image_S, sighting.pixel), *A, kPatchSide) : std::nullopt;
-  const auto match =
-      patch ? search_.find(*view.image_F, *patch, prediction->pixel, prediction->S) : vision::PatchMatch{};
-  if (!match) {
+  const vision::ReferencePatch reference = vision::cut_reference(image_S, sighting.pixel);
+  const Eigen::Quaterniond q_WS = filter.camera().q_WS;
+  vision::PatchMatch best;
+  Eigen::Vector3d best_normal_S = Eigen::Vector3d::Zero();
+  const auto try_normal = [&](const Eigen::Vector3d& normal_S) {
+    const auto match = search(view, reference, p_S->p_S, normal_S, prediction->pixel, prediction->S);
+    if (!match || (best && match.score <= best.score)) return;
+    best = match;
+    best_normal_S = normal_S;
+  };
+  if (track.normal_W) try_normal(q_WS.conjugate() * *track.normal_W);
+  if (!best) {
+    for (const Eigen::Vector3d& normal_S : vision::surfaces_along(p_S->p_S, view.up_S))
+      try_normal(normal_S);
+  }
+  if (!best) {
     ++counts.ratio_test;
     return std::nullopt;
   }
-  const ekf::StereoMatch pixels{sighting.pixel, match.pixel};
-  const auto point = ekf::triangulate(pixels, view.rig.camera_S, view.rig.camera_F, view.rig.T_SF.T);
+  track.normal_W = q_WS * best_normal_S;
+  return ekf::StereoMatch{sighting.pixel, best.pixel};
+}
+
+vision::PatchMatch PseudoStereo::search(const StereoView& view, const vision::ReferencePatch& reference,
+                                        const Eigen::Vector3d& p_S, const Eigen::Vector3d& normal_S,
+                                        const Eigen::Vector2d& predicted, const Eigen::Matrix2d& S) {
+  const auto A = vision::predicted_warp({view.rig.camera_S, Pose{}}, {view.rig.camera_F, view.rig.T_SF.T},
+                                        p_S, normal_S);
+  const auto patch = A ? vision::warp_pyramid(reference, *A, kPatchSide) : std::nullopt;
+  return patch ? search_.find(*view.image_F, *patch, predicted, S) : vision::PatchMatch{};
+}
+
+std::vector<ekf::Measurement> PseudoStereo::measure(const std::optional<StereoView>& view,
+                                                    const std::vector<Sighting>& sightings,
+                                                    const Matches& matches,
+                                                    PseudoStereoCounts& counts) const {
+  std::vector<ekf::Measurement> measurements;
+  measurements.reserve(sightings.size());
+  for (std::size_t i = 0; i < sightings.size(); ++i) {
+    const Sighting& sighting = sightings[i];
+    const auto point = view && matches[i] ? point_of(*view, *matches[i], counts) : std::nullopt;
+    measurements.push_back(point ? ekf::Measurement::point(sighting.landmark, *point)
+                                 : ekf::Measurement::pixel(sighting.landmark, sighting.pixel, pixel_sigma_));
+  }
+  return measurements;
+}
+
+std::optional<ekf::PointMeasurement> PseudoStereo::point_of(const StereoView& view,
+                                                            const ekf::StereoMatch& match,
+                                                            PseudoStereoCounts& counts) const {
+  const auto point = ekf::triangulate(match, view.rig.camera_S, view.rig.camera_F, view.rig.T_SF.T);
   if (!point || !has_depth(*point, view.rig, options_)) {
     ++counts.too_little_parallax;
     return std::nullopt;
   }
-  return ekf::measure_point(pixels, view.rig);
+  return ekf::measure_point(match, view.rig);
 }
 
 PseudoStereoOutcome outcome_of(const PseudoStereoCounts& counts) {

@@ -15,7 +15,8 @@ struct StereoView {
   const GrayImage* image_F = nullptr;
   ekf::StereoRig rig;
   OverlapEstimate overlap;
-  double near = 0.3;         ///< nothing nearer to Cs is looked for [m]
+  double near = 0.3;                                 ///< nothing nearer to Cs is looked for [m]
+  Eigen::Vector3d up_S = -Eigen::Vector3d::UnitY();  ///< z of W
   ConvexPolygon silhouette;  ///< the wearer's own body in Cs [px]: nothing inside is used
 };
 

@@ -11,6 +11,7 @@ PatchMatch BandSearch::find(const GrayImage& image_F, const BandTarget& target, 
   peaks_.clear();
   searched_ = false;
   best_patch_ = Patch{};
+  best_normal_ = 0;
   for (std::size_t i = 0; i + 1 < band.size(); ++i) {
     const EpipolarBand::Sample& from = band.sample(i);
     const EpipolarBand::Sample& to = band.sample(i + 1);
@@ -39,8 +40,17 @@ void BandSearch::search_piece(const GrayImage& image_F, const BandTarget& target
   if (!direction) return;
   constexpr double kFarthest = 1e4;  // [m] stands for infinity
   const double distance = 1.0 / std::max(piece.inverse_distance, 1.0 / kFarthest);
-  const auto A = predicted_warp(target.reference, target.wearer,
-                                target.slam.T_WC * (distance * direction->normalized()));
+  const Eigen::Vector3d p = target.slam.T_WC * (distance * direction->normalized());
+  if (target.normals.empty())
+    search_patch(image_F, predicted_warp(target.reference, target.wearer, p), target, piece, 0);
+  for (std::size_t k = 0; k < target.normals.size(); ++k) {
+    search_patch(image_F, predicted_warp(target.reference, target.wearer, p, target.normals[k]), target,
+                 piece, k);
+  }
+}
+
+void BandSearch::search_patch(const GrayImage& image_F, const std::optional<Eigen::Matrix2d>& A,
+                              const BandTarget& target, const Piece& piece, std::size_t normal) {
   if (!A) return;
   const auto patch = warp(target.patch, *A, side_);
   if (!patch || patch->is_flat()) return;
@@ -65,7 +75,10 @@ void BandSearch::search_piece(const GrayImage& image_F, const BandTarget& target
   const bool improves = std::all_of(peaks_.begin(), peaks_.end(), [&](const Peak& peak) {
     return piece_peaks_.front().score > peak.score;
   });
-  if (improves) best_patch_ = *patch;
+  if (improves) {
+    best_patch_ = *patch;
+    best_normal_ = normal;
+  }
   peaks_.insert(peaks_.end(), piece_peaks_.begin(), piece_peaks_.end());
 }
 

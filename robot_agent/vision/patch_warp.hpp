@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <cstddef>
 #include <optional>
 
 #include "shared/geometry/camera_model.hpp"
@@ -25,5 +27,15 @@ enum class PatchNormal {
 std::optional<Eigen::Matrix2d> predicted_warp(const View& reference, const View& present,
                                               const Eigen::Vector3d& p_W,
                                               PatchNormal normal = PatchNormal::kTowardsReference);
+
+/// The same with the plane's normal given, in the axes of W; its sign does not matter.
+std::optional<Eigen::Matrix2d> predicted_warp(const View& reference, const View& present,
+                                              const Eigen::Vector3d& p_W, const Eigen::Vector3d& normal_W);
+
+/// Which ways a surface seen along `ray` may face where rooms are built of walls, floors and ceilings:
+/// towards the camera, turned from there to either side, and level. Unit vectors in the axes of `ray` and
+/// `up`.
+inline constexpr std::size_t kSurfaces = 4;
+std::array<Eigen::Vector3d, kSurfaces> surfaces_along(const Eigen::Vector3d& ray, const Eigen::Vector3d& up);
 
 }  // namespace cosight::vision

@@ -77,6 +77,43 @@ TEST(PredictedWarp, OfTheSameViewIsIdentity) {
   }
 }
 
+// Both cameras look along a corridor's wall (y = 1 in W, x ahead): pixels of the wall are mapped by geometry.
+TEST(PredictedWarp, OfAGivenPlaneFollowsItsPixels) {
+  const CameraModel camera_S = slam_camera();
+  const CameraModel camera_F = worn_camera();
+  const Eigen::Quaterniond ahead(0.5, -0.5, 0.5, -0.5);
+  const View reference{camera_S, {ahead, {0.0, 0.0, 0.0}}};
+  const View present{camera_F, {ahead, {0.8, 0.3, 0.1}}};
+  const Eigen::Vector3d p_W(5.0, 1.0, 0.2);
+  const Eigen::Vector2d u = *camera_S.project(reference.T_WC.inverse() * p_W);
+  const auto map = [&](const Eigen::Vector2d& pixel) {
+    const Eigen::Vector3d ray_W = reference.T_WC.q * *camera_S.unproject(pixel);
+    return *camera_F.project(present.T_WC.inverse() * Eigen::Vector3d(ray_W / ray_W.y()));
+  };
+  for (const double sign : {1.0, -1.0}) {
+    const auto A = predicted_warp(reference, present, p_W, Eigen::Vector3d(0.0, sign, 0.0));
+    ASSERT_TRUE(A);
+    constexpr double kStep = 1e-3;
+    for (int k = 0; k < 2; ++k) {
+      const Eigen::Vector2d step = kStep * Eigen::Vector2d::Unit(k);
+      const Eigen::Vector2d column = (map(u + step) - map(u - step)) / (2.0 * kStep);
+      EXPECT_LT((column - A->col(k)).norm(), 1e-5);
+    }
+  }
+}
+
+TEST(Surfaces, AreUnitNormalsOfWallsFloorAndWhatFacesTheCamera) {
+  const Eigen::Vector3d up(0.0, -1.0, 0.0);
+  const Eigen::Vector3d ray(0.4, 0.1, 2.0);
+  const auto normals = surfaces_along(ray, up);
+  EXPECT_TRUE(normals[0].isApprox(ray.normalized()));
+  EXPECT_TRUE(normals[3].isApprox(up));
+  for (const Eigen::Vector3d& normal : normals)
+    EXPECT_NEAR(normal.norm(), 1.0, 1e-12);
+  EXPECT_NEAR(normals[1].dot(up), normals[0].dot(up), 1e-12);  // turned about the vertical
+  EXPECT_LT(normals[1].dot(normals[2]), 0.0);
+}
+
 TEST(PredictedWarp, IsRefusedBehindACameraAndEdgeOn) {
   const CameraModel camera = worn_camera();
   const View reference{camera, Pose{}};

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "robot_agent/ekf/triangulation.hpp"
+#include "shared/geometry/uncertain_pose.hpp"
+
+namespace cosight::slam {
+
+struct RigRefinementOptions {
+  int hypotheses = 100;          ///< RANSAC samples of three matches each
+  double gate_sigmas = 3.0;      ///< of a match's own epipolar error
+  double mismatch_px = 0.7;      ///< of a match beyond its pixel noise: what the warp leaves of perspective
+  int independent_matches = 10;  ///< more do not make it better: lens and surfaces err alike in neighbours
+  int min_inliers = 6;           ///< fewer say nothing that chance could not
+  double min_inlier_share = 0.35;
+  std::uint32_t seed = 1;
+};
+
+/// What the matches of one frame say of the pose of Cf.
+struct RefinedRig {
+  UncertainPose T_SF;
+  std::vector<char> is_inlier;  ///< one entry a match
+  int inliers = 0;
+};
+
+/// The pose of Cf from what the sensors say (`rig.T_SF`, its covariance the prior) and from the epipolar
+/// constraint of matches between the two images, which know nothing of depth:
+///
+///   T_SF = argmin |xi|^2_Sigma + sum_i rho( e_i(T_SF_hat (+) xi)^2 / sigma_i^2 ),   e = t . (m_S x R m_F)
+///
+/// with m the unit rays and sigma_i from the pixels' noise. The length of t stays what the sensors say.
+/// Nothing when too few matches agree.
+std::optional<RefinedRig> refine_rig(const ekf::StereoRig& rig, std::span<const ekf::StereoMatch> matches,
+                                     const RigRefinementOptions& options = {});
+
+}  // namespace cosight::slam
