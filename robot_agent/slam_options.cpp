@@ -51,6 +51,7 @@ slam::PseudoStereoOptions read_pseudo_stereo(const ConfigNode& node) {
   o.correlated_updates = node.boolean("correlated_updates", o.correlated_updates);
   o.correlated_starts = node.boolean("correlated_starts", o.correlated_starts);
   o.max_new_landmarks = node.integer("max_new_landmarks", o.max_new_landmarks, 0, 500);
+  o.max_new_tries = node.integer("max_new_tries", o.max_new_tries, 0, 500);
   o.refine_wearer_pose = node.boolean("refine_wearer_pose", o.refine_wearer_pose);
   o.min_refining_matches = node.integer("min_refining_matches", o.min_refining_matches, 0, 500);
   return o;

@@ -209,8 +209,10 @@ PseudoStereo::Matches CollaborativeSlam::match_in_wearer(StereoView& view, const
   }
   const int missing = options_.pseudo_stereo.min_refining_matches - static_cast<int>(evidence.size());
   if (missing > 0 && has_wide_bands(view.rig.T_SF)) {
-    constexpr int kTriesPerMatch = 5;
-    const auto guesses = new_points_.guesses(view, image, kTriesPerMatch * missing);
+    constexpr int kTriesPerMatch = 8;
+    const int tries = tracking_ == Tracking::kWaitingForScale ? kTriesPerMatch * missing
+                                                              : 2 * options_.pseudo_stereo.max_new_tries;
+    const auto guesses = new_points_.guesses(view, image, tries);
     evidence.insert(evidence.end(), guesses.begin(), guesses.end());
   }
   RigRefinementOptions refinement;
@@ -299,7 +301,8 @@ void CollaborativeSlam::renew_map(const GrayImage& image, const std::optional<St
   watch.lap(estimate.timings.map);
   if (view) {
     const int places = maintenance_.make_room(filter_, tracks_, options_.pseudo_stereo.max_new_landmarks);
-    estimate.landmarks_added += add_pseudo_stereo(image, *view, places, estimate.pseudo_stereo);
+    estimate.landmarks_added += add_pseudo_stereo(
+        image, *view, {places, options_.pseudo_stereo.max_new_tries}, estimate.pseudo_stereo);
   }
   watch.lap(estimate.timings.pseudo_stereo);
   candidates_.track(tracker_, filter_, usual_depth(search_.predict(filter_, tracks_)), silhouette_);
@@ -318,7 +321,8 @@ void CollaborativeSlam::begin(const GrayImage& image, const std::optional<Stereo
     tracking_ = Tracking::kTracking;
   } else if (view) {
     estimate.landmarks_added =
-        add_pseudo_stereo(image, *view, options_.start.first_landmarks, estimate.pseudo_stereo);
+        add_pseudo_stereo(image, *view, {options_.start.first_landmarks, 2 * options_.start.first_landmarks},
+                          estimate.pseudo_stereo);
     if (filter_.landmark_count() >= options_.start.min_landmarks) {
       tracking_ = Tracking::kTracking;
     } else {
@@ -346,9 +350,9 @@ std::vector<std::optional<ekf::LandmarkId>> CollaborativeSlam::start_landmarks(
   return ids;
 }
 
-int CollaborativeSlam::add_pseudo_stereo(const GrayImage& image, const StereoView& view, int places,
-                                         PseudoStereoCounts& counts) {
-  const auto points = new_points_.find(view, image, tracks_.found_pixels(), places, counts);
+int CollaborativeSlam::add_pseudo_stereo(const GrayImage& image, const StereoView& view,
+                                         const NewPoints::Budget& budget, PseudoStereoCounts& counts) {
+  const auto points = new_points_.find(view, image, tracks_.found_pixels(), budget, counts);
   const auto ids = start_landmarks(points, view.rig);
   int added = 0;
   for (std::size_t i = 0; i < ids.size(); ++i) {

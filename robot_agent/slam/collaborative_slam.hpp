@@ -59,7 +59,7 @@ class CollaborativeSlam {
   void begin(const GrayImage& image, const std::optional<StereoView>& view, FrameEstimate& estimate);
   std::vector<std::optional<ekf::LandmarkId>> start_landmarks(const std::vector<NewPoint>& points,
                                                               const ekf::StereoRig& rig);
-  int add_pseudo_stereo(const GrayImage& image, const StereoView& view, int places,
+  int add_pseudo_stereo(const GrayImage& image, const StereoView& view, const NewPoints::Budget& budget,
                         PseudoStereoCounts& counts);
   void renew_references(const GrayImage& image);
   void describe(FrameEstimate& estimate);

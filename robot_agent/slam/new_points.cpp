@@ -42,25 +42,39 @@ NewPoints::NewPoints(const PseudoStereoOptions& options, int min_distance_px)
       extractor_(make_extractor(options.matching)) {}
 
 std::vector<NewPoint> NewPoints::find(const StereoView& view, const GrayImage& image_S,
-                                      const std::vector<Eigen::Vector2d>& occupied, int wanted,
+                                      const std::vector<Eigen::Vector2d>& occupied, const Budget& budget,
                                       PseudoStereoCounts& counts) {
-  if (wanted <= 0) return {};
-  return extractor_ ? find_by_descriptors(view, image_S, occupied, wanted, counts)
-                    : find_by_band(view, image_S, occupied, wanted, counts);
+  rest_refusals();
+  if (budget.points <= 0) return {};
+  return extractor_ ? find_by_descriptors(view, image_S, occupied, budget.points, counts)
+                    : find_by_band(view, image_S, occupied, budget, counts);
+}
+
+void NewPoints::rest_refusals() {
+  for (Refusal& refusal : refusals_)
+    --refusal.frames_left;
+  std::erase_if(refusals_, [](const Refusal& refusal) { return refusal.frames_left <= 0; });
 }
 
 std::vector<NewPoint> NewPoints::find_by_band(const StereoView& view, const GrayImage& image_S,
-                                              const std::vector<Eigen::Vector2d>& occupied, int wanted,
+                                              std::vector<Eigen::Vector2d> occupied, const Budget& budget,
                                               PseudoStereoCounts& counts) {
-  std::vector<NewPoint> matches;
-  constexpr int kTriesPerMatch = 2;
+  constexpr int kRest = 10;  // frames
+  vision::build_pyramid(*view.image_F, pyramid_F_);
+  for (const Refusal& refusal : refusals_)
+    occupied.push_back(refusal.pixel);
+  std::vector<NewPoint> points;
   for (const vision::Corner& corner :
-       corners_.detect(image_S, occupied, kTriesPerMatch * wanted, &view.overlap.roi_in_S)) {
-    if (static_cast<int>(matches.size()) == wanted) break;
+       corners_.detect(image_S, occupied, budget.tries, &view.overlap.roi_in_S)) {
+    if (static_cast<int>(points.size()) == budget.points) break;
     if (contains(view.silhouette, corner.pixel)) continue;
-    if (const auto match = match_corner(view, image_S, corner.pixel, counts)) matches.push_back(*match);
+    if (const auto point = match_corner(view, image_S, corner.pixel, counts)) {
+      points.push_back(*point);
+    } else {
+      refusals_.push_back({corner.pixel, kRest});
+    }
   }
-  return matches;
+  return points;
 }
 
 std::vector<NewPoint> NewPoints::find_by_descriptors(const StereoView& view, const GrayImage& image_S,
@@ -119,11 +133,17 @@ vision::PatchMatch NewPoints::search_band(const StereoView& view, const GrayImag
   const vision::View wearer{view.rig.camera_F, view.rig.T_SF.T};
   const Eigen::Vector3d ray_S = view.rig.camera_S.unproject(pixel_S).value_or(Eigen::Vector3d::UnitZ());
   normals_S_ = vision::surfaces_along(ray_S, view.up_S);
-  return band_search_.find(*view.image_F, {patch, slam, slam, wearer, pixel_S, normals_S_}, band);
+  // Most surfaces do face the camera well enough; the others cost three more searches.
+  constexpr double kGoodEnough = 0.93;
+  const std::span<const Eigen::Vector3d> all(normals_S_);
+  const auto facing = band_search_.find(pyramid_F_, {patch, slam, slam, wearer, pixel_S, all.first(1)}, band);
+  if (facing && facing.score > kGoodEnough) return facing;
+  return band_search_.find(pyramid_F_, {patch, slam, slam, wearer, pixel_S, all}, band);
 }
 
 std::vector<ekf::StereoMatch> NewPoints::guesses(const StereoView& view, const GrayImage& image_S,
                                                  int wanted) {
+  vision::build_pyramid(*view.image_F, pyramid_F_);
   std::vector<ekf::StereoMatch> matches;
   for (const vision::Corner& corner : corners_.detect(image_S, {}, wanted, &view.overlap.roi_in_S)) {
     const bool hidden = contains(view.silhouette, corner.pixel);

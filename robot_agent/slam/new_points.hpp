@@ -29,9 +29,15 @@ class NewPoints {
  public:
   NewPoints(const PseudoStereoOptions& options, int min_distance_px);
 
-  /// At most `wanted`, away from the `occupied` pixels of Cs and from each other.
+  /// How many, and how many corners may be tried for them: a band costs about as much as a dozen landmarks.
+  struct Budget {
+    int points = 0;
+    int tries = 0;
+  };
+
+  /// Away from the `occupied` pixels of Cs, from each other, and from corners that lately had no match.
   std::vector<NewPoint> find(const StereoView& view, const GrayImage& image_S,
-                             const std::vector<Eigen::Vector2d>& occupied, int wanted,
+                             const std::vector<Eigen::Vector2d>& occupied, const Budget& budget,
                              PseudoStereoCounts& counts);
 
   /// Corners of Cs inside the overlap with the best place in their band, however wide and however ambiguous:
@@ -40,11 +46,12 @@ class NewPoints {
 
  private:
   std::vector<NewPoint> find_by_band(const StereoView& view, const GrayImage& image_S,
-                                     const std::vector<Eigen::Vector2d>& occupied, int wanted,
+                                     std::vector<Eigen::Vector2d> occupied, const Budget& budget,
                                      PseudoStereoCounts& counts);
   std::vector<NewPoint> find_by_descriptors(const StereoView& view, const GrayImage& image_S,
                                             std::vector<Eigen::Vector2d> occupied, int wanted,
                                             PseudoStereoCounts& counts);
+  void rest_refusals();
   std::optional<vision::EpipolarBand> band_of(const StereoView& view, const Eigen::Vector2d& pixel_S) const;
   vision::PatchMatch search_band(const StereoView& view, const GrayImage& image_S,
                                  const Eigen::Vector2d& pixel_S, const vision::EpipolarBand& band);
@@ -54,12 +61,20 @@ class NewPoints {
                                          const ekf::StereoMatch& rough, PseudoStereoCounts& counts);
   bool accept(const StereoView& view, const ekf::StereoMatch& match, PseudoStereoCounts& counts) const;
 
+  /// A corner that found no match stays out for a while, so that others get their turn.
+  struct Refusal {
+    Eigen::Vector2d pixel;
+    int frames_left = 0;
+  };
+
   PseudoStereoOptions options_;
   int min_distance_px_;
   vision::CornerDetector corners_;
   vision::BandSearch band_search_;
+  vision::ImagePyramid pyramid_F_;
   std::array<Eigen::Vector3d, vision::kSurfaces> normals_S_;  ///< tried in the last search of a band
   vision::ActiveSearch refinement_;
+  std::vector<Refusal> refusals_;
   std::unique_ptr<vision::DescriptorExtractor> extractor_;  ///< null: by band
 };
 

@@ -69,10 +69,11 @@ struct PseudoStereoOptions {
   /// is the direction in which an EKF drifts (docs/decisions/0005).
   bool correlated_starts = false;
   int max_new_landmarks = 12;  ///< started from one frame
+  int max_new_tries = 6;       ///< corners tried for them in a frame: the budget of time
   /// The pose of Cf is estimated from the matches as well, the sensors' pose being the prior; off: it is
   /// taken as the sensors give it (the paper).
   bool refine_wearer_pose = true;
-  int min_refining_matches = 10;  ///< of known landmarks; with fewer, new corners help
+  int min_refining_matches = 6;  ///< of known landmarks; with fewer, new corners help
 };
 
 /// The wearer's body, as it hides the scene from the robot.

@@ -165,12 +165,14 @@ void search_60_bands(benchmark::State& state, double relative_sigma) {
   const auto range = relative_sigma > 0.0 ? InverseDistanceRange::around(0.3, 0.3 * relative_sigma, 3.0, 0.5)
                                           : InverseDistanceRange::between(0.5, 50.0);
   BandSearch search;
+  ImagePyramid pyramid;
+  build_pyramid(image, pyramid);
   for (auto _ : state) {
     for (const Eigen::Vector2d& pixel : sixty_pixels()) {
       const auto band = EpipolarBand::predict(camera, camera, T_SF, pixel, range);
       if (!band) continue;
       const ReferencePatch patch = cut_reference(image, pixel);
-      benchmark::DoNotOptimize(search.find(image, {patch, slam, slam, worn, pixel}, *band));
+      benchmark::DoNotOptimize(search.find(pyramid, {patch, slam, slam, worn, pixel}, *band));
     }
   }
 }

@@ -159,6 +159,12 @@ TEST(EpipolarBand, IsAPointWithoutBaseline) {
   EXPECT_TRUE(band->inside(*scene.camera_F.project(*scene.camera_S.unproject({200, 120}))));
 }
 
+ImagePyramid pyramid_of(const GrayImage& image) {
+  ImagePyramid pyramid;
+  build_pyramid(image, pyramid);
+  return pyramid;
+}
+
 TEST(BandSearch, FindsTheWarpedPatchInTheOtherCamera) {
   Scene scene(3);
   const Eigen::Vector3d p_W(0.1, 0.0, 2.5);
@@ -179,7 +185,7 @@ TEST(BandSearch, FindsTheWarpedPatchInTheOtherCamera) {
     ASSERT_TRUE(band);
     const ReferencePatch patch = cut_reference(image_S, pixel_S);
     const View believed{scene.camera_F, T_SF.T};
-    const PatchMatch match = search.find(image_F, {patch, slam, slam, believed, pixel_S}, *band);
+    const PatchMatch match = search.find(pyramid_of(image_F), {patch, slam, slam, believed, pixel_S}, *band);
     if (!match) continue;
     ++found;
     const Eigen::Vector2d pixel_F = *scene.camera_F.project(wearer.T_WC.inverse() * p_W);

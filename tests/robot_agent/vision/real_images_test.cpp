@@ -69,6 +69,8 @@ TEST_F(Kitti, MatchesAlongTheBandLieInTheirRow) {
   const View slam{kKittiCamera, Pose{}};
   const View worn{kKittiCamera, T_SF_.T};
   BandSearch search;
+  ImagePyramid pyramid;
+  build_pyramid(right_, pyramid);
   int found = 0;
   int rectified = 0;
   const std::vector<Corner> corners = CornerDetector().detect(left_, {}, 100);
@@ -78,7 +80,7 @@ TEST_F(Kitti, MatchesAlongTheBandLieInTheirRow) {
                                             InverseDistanceRange::between(3.0, 200.0));
     if (!band) continue;
     const PatchMatch match =
-        search.find(right_, {cut_reference(left_, corner.pixel), slam, slam, worn, corner.pixel}, *band);
+        search.find(pyramid, {cut_reference(left_, corner.pixel), slam, slam, worn, corner.pixel}, *band);
     if (!match) continue;
     ++found;
     rectified += is_rectified(corner.pixel, match.pixel) ? 1 : 0;
