@@ -3,7 +3,10 @@
 #include <iostream>
 
 #include "tools/evaluate_command.hpp"
+#include "tools/info_command.hpp"
 #include "tools/prepare_command.hpp"
+#include "tools/record_command.hpp"
+#include "tools/recover_command.hpp"
 #include "tools/summarise_command.hpp"
 
 namespace {
@@ -12,14 +15,19 @@ constexpr int kFailed = 1;
 constexpr int kUsage = 2;
 
 int run(int argc, char** argv) {
-  CLI::App program{"Cosight's tools around a run: prepare data, evaluate, summarise"};
+  CLI::App program{"Cosight's tools around a run: prepare data, record, evaluate, summarise"};
   program.require_subcommand(1);
   program.set_version_flag("--version", COSIGHT_VERSION);
   cosight::add_prepare_command(program);
   cosight::add_evaluate_command(program);
   cosight::add_summarise_command(program);
+  cosight::add_record_command(program);
+  cosight::add_info_command(program);
+  cosight::add_recover_command(program);
   try {
     program.parse(argc, argv);
+  } catch (const CLI::RuntimeError& error) {
+    return error.get_exit_code();  // a command's own
   } catch (const CLI::ParseError& error) {
     return program.exit(error) == 0 ? 0 : kUsage;
   }

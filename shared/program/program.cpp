@@ -21,16 +21,15 @@ extern "C" void request_stop(int /*signal*/) {
   stop_requested = true;
 }
 
-/// To stderr, so that stdout carries results only; over a status line when there is one.
-void set_up_log(const std::string& level) {
+}  // namespace
+
+void log_to_stderr(const std::string& level) {
   auto logger = spdlog::stderr_color_mt("cosight");
   logger->set_pattern(::isatty(STDERR_FILENO) != 0 ? "\r\x1b[K[%H:%M:%S] %^%l%$: %v"
                                                    : "[%H:%M:%S.%e] %l: %v");
   logger->set_level(spdlog::level::from_str(level));
   spdlog::set_default_logger(std::move(logger));
 }
-
-}  // namespace
 
 struct Program::Shortcut {
   std::string flag;
@@ -97,7 +96,7 @@ int Program::run(int argc, char** argv,
                  const std::function<ExitCode(const ConfigFile&, const std::atomic<bool>&)>& body) {
   try {
     app_->parse(argc, argv);
-    set_up_log(log_level_);
+    log_to_stderr(log_level_);
     const auto& stop = stop_on_signals();
     return static_cast<int>(body(load_config(), stop));
   } catch (const CLI::ParseError& error) {

@@ -67,6 +67,10 @@ class Program {
   std::string log_level_ = "info";
 };
 
+/// Log lines go to stderr from now on, so that stdout carries results only; over a status line when there is
+/// one. `level`: as for --log-level.
+void log_to_stderr(const std::string& level);
+
 /// The flag that SIGINT and SIGTERM set, from now on. Once a process; the second signal of a kind has its
 /// usual effect.
 const std::atomic<bool>& stop_on_signals();

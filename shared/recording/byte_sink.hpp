@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 #include <span>
 #include <vector>
 
@@ -17,15 +18,18 @@ class ByteSink {
   ByteSink& operator=(const ByteSink&) = delete;
   virtual ~ByteSink() = default;
 
-  /// All of it, or a RecordingError.
-  virtual void write(ByteView bytes) = 0;
+  /// All the parts one after the other, or a RecordingError and nothing of them.
+  virtual void write(std::initializer_list<ByteView> parts) = 0;
   /// Returns when what was written survives a power cut.
   virtual void sync() = 0;
 };
 
 class MemorySink : public ByteSink {
  public:
-  void write(ByteView bytes) override { bytes_.insert(bytes_.end(), bytes.begin(), bytes.end()); }
+  void write(std::initializer_list<ByteView> parts) override {
+    for (const ByteView part : parts)
+      bytes_.insert(bytes_.end(), part.begin(), part.end());
+  }
   void sync() override {}
 
   const Bytes& bytes() const { return bytes_; }

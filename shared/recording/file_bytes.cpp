@@ -13,6 +13,9 @@
 namespace cosight::recording {
 namespace {
 
+// The disk begins early, so that little is left to be done at the end.
+constexpr std::uint64_t kWriteBack = std::uint64_t{8} << 20;
+
 std::string reason() {
   return std::generic_category().message(errno);
 }
@@ -29,20 +32,32 @@ FileSink::~FileSink() {
   ::close(file_);
 }
 
-void FileSink::write(ByteView bytes) {
-  std::size_t written = 0;
-  while (written < bytes.size()) {
-    const ::ssize_t count = ::write(file_, bytes.data() + written, bytes.size() - written);
+bool FileSink::write_all(ByteView bytes) const {
+  while (!bytes.empty()) {
+    const ::ssize_t count = ::write(file_, bytes.data(), bytes.size());
     if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) {
-      const int error = count < 0 ? errno : ENOSPC;
-      if (::ftruncate(file_, static_cast<::off_t>(size_)) == 0) ::lseek(file_, 0, SEEK_END);
-      errno = error;
-      fail("can't be written");
-    }
-    written += static_cast<std::size_t>(count);
+    if (count == 0) errno = ENOSPC;
+    if (count <= 0) return false;
+    bytes = bytes.subspan(static_cast<std::size_t>(count));
   }
-  size_ += bytes.size();
+  return true;
+}
+
+void FileSink::write(std::initializer_list<ByteView> parts) {
+  std::uint64_t bytes = 0;
+  for (const ByteView part : parts) {
+    bytes += part.size();
+    if (write_all(part)) continue;
+    const int error = errno;
+    if (::ftruncate(file_, static_cast<::off_t>(size_)) == 0) ::lseek(file_, 0, SEEK_END);
+    errno = error;
+    fail("can't be written");
+  }
+  size_ += bytes;
+  if (size_ - write_back_ < kWriteBack) return;
+  ::sync_file_range(file_, static_cast<::off64_t>(write_back_), static_cast<::off64_t>(size_ - write_back_),
+                    SYNC_FILE_RANGE_WRITE);
+  write_back_ = size_;
 }
 
 void FileSink::sync() {

@@ -16,18 +16,17 @@ class FileSink : public ByteSink {
   explicit FileSink(std::filesystem::path path);
   ~FileSink() override;
 
-  /// A write that the disk can't take whole is taken back, so that the file still ends with a whole record.
-  void write(ByteView bytes) override;
+  void write(std::initializer_list<ByteView> parts) override;
   void sync() override;
 
-  std::uint64_t size() const { return size_; }
-
  private:
+  bool write_all(ByteView bytes) const;
   [[noreturn]] void fail(const char* what) const;
 
   std::filesystem::path path_;
   int file_ = -1;
-  std::uint64_t size_ = 0;
+  std::uint64_t size_ = 0;        ///< of what is whole
+  std::uint64_t write_back_ = 0;  ///< up to where the kernel was told to begin writing
 };
 
 class FileSource : public ByteSource {

@@ -60,19 +60,21 @@ Bytes records_of(const std::vector<Known>& known) {
 
 McapWriter::McapWriter(ByteSink& sink, WriterOptions options)
     : sink_(sink), options_(std::move(options)), compressor_(options_.compression, options_.level) {
-  put(kMagic);
+  put({kMagic});
   Bytes header;
   FieldWriter fields(header);
   fields.record(Opcode::kHeader, [&] { fields.text(options_.profile).text(kLibrary); });
-  put(header);
+  put({header});
   chunk_.reserve(options_.chunk_bytes + options_.chunk_bytes / 4);
 }
 
-void McapWriter::put(ByteView bytes) {
+void McapWriter::put(std::initializer_list<ByteView> parts) {
   assert(!closed_);
-  sink_.write(bytes);
-  data_crc_.add(bytes);
-  position_ += bytes.size();
+  sink_.write(parts);
+  for (const ByteView part : parts) {
+    data_crc_.add(part);
+    position_ += part.size();
+  }
 }
 
 SchemaId McapWriter::add_schema(const std::string& name, const std::string& encoding,
@@ -165,8 +167,7 @@ McapWriter::ChunkIndex McapWriter::write_chunk() {
       .number(crc32(chunk_))
       .text(compression)
       .number(std::uint64_t{records.size()});
-  put(head);
-  put(records);
+  put({head, records});
   chunk.length = position_ - chunk.offset;
   return chunk;
 }
@@ -188,7 +189,7 @@ void McapWriter::write_message_indexes(ChunkIndex& chunk) {
     entries.clear();
   }
   chunk.index_length = scratch_.size();
-  put(scratch_);
+  put({scratch_});
 }
 
 void McapWriter::write(const Attachment& attachment) {
@@ -221,9 +222,7 @@ void McapWriter::write(const Attachment& attachment) {
         .text(attachment.media_type);
   });
   ++attachments_;
-  put(head);
-  put(attachment.data);
-  put(tail);
+  put({head, attachment.data, tail});
 }
 
 void McapWriter::write(const Metadata& metadata) {
@@ -235,7 +234,7 @@ void McapWriter::write(const Metadata& metadata) {
   index.record(Opcode::kMetadataIndex,
                [&] { index.number(position_).number(std::uint64_t{record.size()}).text(metadata.name); });
   ++metadata_;
-  put(record);
+  put({record});
 }
 
 Bytes McapWriter::chunk_index_records() const {
@@ -280,7 +279,7 @@ void McapWriter::close() {
   Bytes end;
   FieldWriter end_fields(end);
   end_fields.record(Opcode::kDataEnd, [&] { end_fields.number(data_crc_.value()); });
-  put(end);
+  put({end});
 
   Summary summary(position_);
   summary.add(Opcode::kSchema, records_of(schemas_));
@@ -289,7 +288,7 @@ void McapWriter::close() {
   summary.add(Opcode::kChunkIndex, chunk_index_records());
   summary.add(Opcode::kAttachmentIndex, attachment_indexes_);
   summary.add(Opcode::kMetadataIndex, metadata_indexes_);
-  put(summary.finish());
+  put({summary.finish()});
   sink_.sync();
   closed_ = true;
 }

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <map>
 #include <string>
 #include <vector>
@@ -64,7 +65,7 @@ class McapWriter {
     Compression compression = Compression::kNone;
   };
 
-  void put(ByteView bytes);
+  void put(std::initializer_list<ByteView> parts);
   void announce(ChannelId channel);
   ChunkIndex write_chunk();
   void write_message_indexes(ChunkIndex& chunk);
