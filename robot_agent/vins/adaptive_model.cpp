@@ -1,6 +1,7 @@
 #include "robot_agent/vins/adaptive_model.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 
 namespace cosight::vins {
@@ -53,23 +54,27 @@ double geometry_factor(const std::vector<Eigen::Vector3d>& directions) {
   return invertible && Q.trace() > 0.0 ? std::sqrt(Q.trace()) : 0.0;
 }
 
-Trust trust(const TrustOptions& options, int times_tracked, double g) {
+double guarded_weight(const TrustOptions& options, const FeatureRecord& feature) {
+  const double by_tracking = std::min(1.0, feature.times_tracked / options.full_trust_after);
+  const double bend = feature.relative_misfit / options.misfit_width;
+  const double straightness = 1.0 / (1.0 + bend * bend);
+  return by_tracking * straightness * straightness;
+}
+
+Trust trust(const TrustOptions& options, const FeatureRecord& feature) {
   const double fixed = options.focal_length / options.pixel_noise;
-  const bool adaptive = options.mode != TrustMode::kFixed && g > 0.0;
-  if (!adaptive) return {fixed, options.fixed_kernel, 1.0};
-  const double N = times_tracked;
-  switch (options.mode) {
-    case TrustMode::kGeometry:
-      return {sqrt_information(options, options.geometry_scale / g), options.fixed_kernel, 1.0};
-    case TrustMode::kTracking:
-      return {sqrt_information(options, N * options.scale / g), options.fixed_kernel, 1.0};
-    case TrustMode::kRobust:
-      return {sqrt_information(options, N * options.scale / g), Kernel::kHuber, huber_threshold(options, N)};
-    case TrustMode::kFixed:
-    case TrustMode::kGuarded:
-      break;
+  const double N = feature.times_tracked;
+  const double g = feature.geometry_factor;
+  if (options.mode == TrustMode::kGuarded) {
+    return {fixed * std::sqrt(guarded_weight(options, feature)), options.fixed_kernel, 1.0};
   }
-  return {fixed, options.fixed_kernel, 1.0};
+  if (options.mode == TrustMode::kFixed || g <= 0.0) return {fixed, options.fixed_kernel, 1.0};
+  if (options.mode == TrustMode::kGeometry) {
+    return {sqrt_information(options, options.geometry_scale / g), options.fixed_kernel, 1.0};
+  }
+  const double root = sqrt_information(options, N * options.scale / g);
+  if (options.mode == TrustMode::kTracking) return {root, options.fixed_kernel, 1.0};
+  return {root, Kernel::kHuber, huber_threshold(options, N)};
 }
 
 }  // namespace cosight::vins

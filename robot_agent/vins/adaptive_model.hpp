@@ -11,7 +11,7 @@ enum class TrustMode {
   kGeometry,  ///< `ac_g`: by the geometry of the features, V26 without N
   kTracking,  ///< `ac_gn`: by geometry and by how often the feature was tracked, V26
   kRobust,    ///< `ac_me`: the same, and a Huber threshold that grows with N, V26 + V30
-  kGuarded,   ///< `ac_me_guarded`: never far from `vins`, see guarded_weight()
+  kGuarded,   ///< `ac_me_guarded`: see guarded_weight()
 };
 
 const char* to_string(TrustMode mode);
@@ -49,13 +49,32 @@ struct TrustOptions {
   double scale = 0.02;                    ///< s of V26
   double geometry_scale = 0.2;            ///< s of V26 without N; the paper gives none
   double huber_scale = 0.02;              ///< M_s of V30 [standard deviations]
+  double full_trust_after = 8.0;          ///< guarded: N at which a feature counts like in the fixed mode
+  double misfit_width = 2.0;              ///< guarded: misfit that halves the root, in typical ones
+};
+
+/// What is known of a feature when its sightings are weighed.
+struct FeatureRecord {
+  int times_tracked = 0;         ///< N
+  double geometry_factor = 0.0;  ///< g of the frame that saw it; zero: not known
+  double relative_misfit = 0.0;  ///< its misfit in typical ones; zero: not known
 };
 
 /// g (V22-V25): how badly the directions to the features fix a position, as PDOP does. `directions`: unit
 /// vectors from the camera. Nothing sensible, and zero, with fewer than three or all in one plane.
 double geometry_factor(const std::vector<Eigen::Vector3d>& directions);
 
-/// The paper's weight for a feature tracked `times_tracked` times in a frame with geometry factor `g`.
-Trust trust(const TrustOptions& options, int times_tracked, double g);
+/// The guarded mode's factor of the fixed information, in (0, 1]:
+///
+///   w = min(1, N / full_trust_after) / (1 + (misfit / misfit_width)^2)^2.
+///
+/// V26 grows without bound with N and with 1/g. Where all features are poor, that pulls the balance from the
+/// IMU to vision (the paper's epoch C). Here a feature is at best trusted like in the fixed mode, and g,
+/// which is the same for all features of a frame and so can only move that balance, is left out. What N
+/// cannot tell, a vehicle followed for long, its misfit does.
+double guarded_weight(const TrustOptions& options, const FeatureRecord& feature);
+
+/// How much a sighting of this feature counts.
+Trust trust(const TrustOptions& options, const FeatureRecord& feature);
 
 }  // namespace cosight::vins

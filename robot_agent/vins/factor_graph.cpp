@@ -38,10 +38,13 @@ void FactorGraph::add_visual_terms(GraphScope scope) {
 void FactorGraph::add_landmark(const Landmark& landmark) {
   const Observation& first = landmark.observations.front();
   const std::size_t host = window_.slot(first.frame);
+  FeatureRecord feature{.times_tracked = landmark.times_tracked};
+  if (window_.typical_misfit > 0.0) feature.relative_misfit = landmark.misfit / window_.typical_misfit;
   for (std::size_t k = 1; k < landmark.observations.size(); ++k) {
     const Observation& seen = landmark.observations[k];
     const std::size_t target = window_.slot(seen.frame);
-    const Trust how = trust(options_.trust, landmark.times_tracked, window_.frames[target].geometry_factor);
+    feature.geometry_factor = window_.frames[target].geometry_factor;
+    const Trust how = trust(options_.trust, feature);
     visual_.emplace_back(first.sighting, seen.sighting, how.sqrt_information, loss(how), lambdas_.size() - 1,
                          host, target);
   }

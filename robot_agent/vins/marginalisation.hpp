@@ -2,16 +2,10 @@
 
 #include <Eigen/Core>
 
-#include "robot_agent/vins/factor_graph.hpp"
+#include "robot_agent/vins/linearisation.hpp"
 #include "robot_agent/vins/window.hpp"
 
 namespace cosight::vins {
-
-/// H dx = -b: the normal equations of |r + J dx|^2 at some point, H = J^T J, b = J^T r.
-struct NormalEquations {
-  Eigen::MatrixXd H;
-  Eigen::VectorXd b;
-};
 
 /// The first `count` unknowns taken out (Schur complement); what they were not told apart by stays unknown.
 NormalEquations schur_complement(const NormalEquations& system, Eigen::Index count);

@@ -109,11 +109,11 @@ void update_geometry_factors(Window& window) {
   }
 }
 
-int drop_failed_landmarks(Window& window) {
+int drop_failed_landmarks(Window& window, const WindowOptions& options) {
   const FrameId newest = window.frames.back().id;
   int dropped = 0;
   for (auto& [id, landmark] : window.landmarks) {
-    if (!landmark.has_depth || landmark.lambda > 0.0) continue;
+    if (!landmark.has_depth || landmark.lambda > -options.max_behind) continue;
     ++dropped;
     const bool tracked = is_tracked(landmark, newest);
     landmark.observations.erase(landmark.observations.begin(),

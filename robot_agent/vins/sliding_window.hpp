@@ -6,7 +6,10 @@
 namespace cosight::vins {
 
 struct WindowOptions {
-  std::size_t size = 11;                  ///< frames, the newest included (Table 1: n)
+  std::size_t size = 11;  ///< frames, the newest included (Table 1: n)
+  /// Inverse distance below minus this: behind the camera. Noise makes that of far points negative as often
+  /// as positive, and dropping those would bias the scale [1/m].
+  double max_behind = 0.02;
   double default_distance = 5.0;          ///< of a landmark that cannot be triangulated yet [m]
   double max_gyroscope_change = 0.1;      ///< bias change that makes the IMU be integrated again [rad/s]
   double max_accelerometer_change = 0.1;  ///< likewise [m/s^2]
@@ -35,7 +38,7 @@ void update_geometry_factors(Window& window);
 
 /// Takes out landmarks that came to lie behind their host; a feature that is still tracked starts anew with
 /// its newest sighting. Returns how many.
-int drop_failed_landmarks(Window& window);
+int drop_failed_landmarks(Window& window, const WindowOptions& options);
 
 /// One frame less: the oldest, when the second newest is a keyframe or must stay; otherwise the second
 /// newest.

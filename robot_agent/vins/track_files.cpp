@@ -1,9 +1,12 @@
 #include "robot_agent/vins/track_files.hpp"
 
-#include <cmath>
 #include <fstream>
+#include <map>
 #include <sstream>
 #include <string>
+#include <utility>
+
+#include "shared/evaluation/trajectory_reader.hpp"
 
 namespace cosight::vins {
 namespace {
@@ -56,26 +59,6 @@ void read_imu(const std::filesystem::path& file, TrackSequence& sequence) {
   }
 }
 
-void read_truth(const std::filesystem::path& file, TrackSequence& sequence) {
-  std::ifstream stream = open(file);
-  std::string line;
-  for (int number = 1; std::getline(stream, line); ++number) {
-    std::istringstream fields(line);
-    std::string stamp;
-    TrackSequence::TruePose pose;
-    Eigen::Vector4d q;
-    fields >> stamp;
-    for (int i = 0; i < 3; ++i)
-      fields >> pose.T_WB.p(i);
-    for (int i = 0; i < 4; ++i)
-      fields >> q(i);
-    if (!fields) throw bad_line(file, number);
-    pose.stamp = parse_stamp(stamp);
-    pose.T_WB.q = Eigen::Quaterniond(q).normalized();
-    sequence.truth.push_back(pose);
-  }
-}
-
 /// Fills in how fast each feature moves in the image, from its place in the frame before.
 void add_velocities(std::vector<FeatureFrame>& frames) {
   std::map<FeatureId, Eigen::Vector2d> before;
@@ -121,7 +104,7 @@ TrackSequence read_track_sequence(const std::filesystem::path& folder) {
   read_camera(folder / "cam.txt", sequence);
   read_imu(folder / "imu.txt", sequence);
   read_tracks(folder / "tracks.txt", sequence);
-  read_truth(folder / "gt_tum.txt", sequence);
+  sequence.truth = read_trajectory(folder / "gt_tum.txt");
   if (sequence.truth.size() != sequence.frames.size()) {
     throw TrackFileError(folder.string() + ": " + std::to_string(sequence.frames.size()) + " frames but " +
                          std::to_string(sequence.truth.size()) + " true poses");

@@ -1,12 +1,12 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <stdexcept>
 #include <vector>
 
 #include "robot_agent/vins/imu.hpp"
 #include "robot_agent/vins/window.hpp"
+#include "shared/evaluation/trajectory.hpp"
 #include "shared/geometry/pose.hpp"
 
 namespace cosight::vins {
@@ -18,20 +18,16 @@ class TrackFileError : public std::runtime_error {
 
 /// A drive as feature tracks and IMU samples with its truth, as `urban_tracks` has them.
 struct TrackSequence {
-  struct TruePose {
-    Stamp stamp = 0;
-    Pose T_WB;
-  };
-
   std::vector<FeatureFrame> frames;
   std::vector<ImuSample> imu;
-  std::vector<TruePose> truth;  ///< one for each frame
+  Trajectory truth;  ///< T_WB, one for each frame
   Pose T_BS;
   double time_offset = 0.0;  ///< [s]
   double gravity = 9.81;     ///< [m/s^2]
 };
 
-/// Reads cam.txt, imu.txt, tracks.txt and gt_tum.txt of a folder.
+/// Reads cam.txt, imu.txt, tracks.txt and gt_tum.txt of a folder. Throws TrackFileError, and EvaluationError
+/// for the truth.
 TrackSequence read_track_sequence(const std::filesystem::path& folder);
 
 }  // namespace cosight::vins

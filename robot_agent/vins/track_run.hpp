@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <vector>
 
 #include "robot_agent/vins/track_files.hpp"
@@ -11,6 +10,7 @@ namespace cosight::vins {
 struct TrackRunOptions {
   WindowOptions window;
   ImuNoise noise;
+  std::size_t max_frames = 1'000'000;  ///< a shorter run for trials
   /// The first state is the true one; its biases are not known.
   StartUncertainty start{.position = 1e-3, .yaw = 1e-3, .tilt = 1e-2, .velocity = 0.1};
 };
@@ -27,6 +27,7 @@ struct TrackMetrics {
 
 /// A run over a recorded sequence: one report a frame from the second on.
 struct TrackRun {
+  Trajectory estimate;  ///< T_WB, from the first frame on
   std::vector<WindowReport> reports;
   TrackMetrics metrics;
   double solve_ms_median = 0.0;
@@ -36,11 +37,5 @@ struct TrackRun {
 
 /// Starts from the true first state and goes through the whole sequence.
 TrackRun run_tracks(const TrackSequence& sequence, const TrackRunOptions& options);
-
-/// Position part of the relative pose error (evo) between every `step`-th frame [m].
-std::vector<double> relative_errors(const std::vector<TrackSequence::TruePose>& truth,
-                                    const std::vector<Pose>& estimate, std::size_t step);
-
-void write_tum(const TrackRun& run, const std::filesystem::path& file);
 
 }  // namespace cosight::vins

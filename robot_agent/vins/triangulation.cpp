@@ -1,6 +1,6 @@
 #include "robot_agent/vins/triangulation.hpp"
 
-#include <cmath>
+#include <algorithm>
 
 #include "shared/geometry/rotation.hpp"
 
@@ -23,12 +23,10 @@ std::optional<double> triangulate(const Window& window, const Landmark& landmark
     numerator -= a.dot(b);
     denominator += a.squaredNorm();
   }
-  constexpr double kMinBaselineSquared = 1e-6;  // 1 mm across the ray
+  constexpr double kMinBaselineSquared = 1e-4;  // 1 cm across the rays
   if (denominator < kMinBaselineSquared) return std::nullopt;
-  const double lambda = numerator / denominator;
   constexpr double kMinDistance = 0.1;  // [m]
-  if (lambda <= 0.0 || lambda > 1.0 / kMinDistance) return std::nullopt;
-  return lambda;
+  return std::clamp(numerator / denominator, 0.0, 1.0 / kMinDistance);
 }
 
 void triangulate_all(Window& window, std::size_t min_observations, double default_distance) {

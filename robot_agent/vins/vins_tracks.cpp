@@ -1,8 +1,10 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <filesystem>
 #include <map>
 
 #include "robot_agent/vins/track_run.hpp"
+#include "shared/evaluation/trajectory_writer.hpp"
 
 namespace {
 
@@ -34,6 +36,8 @@ void add_trust_options(CLI::App& app, TrustOptions& trust) {
   app.add_option("--scale", trust.scale, "s of V26");
   app.add_option("--geometry-scale", trust.geometry_scale, "s of V26 without N");
   app.add_option("--huber-scale", trust.huber_scale, "M_s of V30");
+  app.add_option("--full-trust-after", trust.full_trust_after, "guarded: N");
+  app.add_option("--misfit-width", trust.misfit_width, "guarded: in typical misfits");
 }
 
 void add_options(CLI::App& app, TrackRunOptions& options) {
@@ -41,6 +45,7 @@ void add_options(CLI::App& app, TrackRunOptions& options) {
   app.add_option("--min-observations", options.window.solver.graph.min_observations);
   app.add_option("--window", options.window.size, "frames");
   app.add_option("--iterations", options.window.solver.max_iterations);
+  app.add_option("--max-behind", options.window.max_behind, "[1/m]");
   app.add_option("--min-parallax", options.window.keyframe.min_parallax, "[rad]");
   app.add_option("--accelerometer-noise", options.noise.accelerometer, "[m/s^2/sqrt(Hz)]");
   app.add_option("--gyroscope-noise", options.noise.gyroscope, "[rad/s/sqrt(Hz)]");
@@ -65,13 +70,15 @@ int main(int argc, char** argv) {
   std::filesystem::path trajectory;
   TrackRunOptions options;
   add_options(app, options);
+  app.add_option("--frames", options.max_frames, "stop after so many");
   app.add_option("folder", folder, "holds cam.txt, imu.txt, tracks.txt and gt_tum.txt")->required();
   app.add_option("--tum", trajectory, "write the trajectory here");
   CLI11_PARSE(app, argc, argv);
   try {
     const TrackRun run = run_tracks(read_track_sequence(folder), options);
     print_summary(run);
-    if (!trajectory.empty()) write_tum(run, trajectory);
+    if (!trajectory.empty())
+      cosight::write_trajectory(trajectory, run.estimate, cosight::TrajectoryFormat::kTum);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "vins_tracks: %s\n", error.what());
     return 1;

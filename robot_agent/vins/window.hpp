@@ -41,6 +41,7 @@ struct Landmark {
   double lambda = 0.0;                    ///< [1/m]
   bool has_depth = false;
   int times_tracked = 0;  ///< N: frames that ever saw it, also those that left the window
+  double misfit = 0.0;    ///< see misfit.hpp [rad]; zero: not known
 };
 
 struct WindowFrame {
@@ -55,8 +56,9 @@ struct WindowFrame {
 struct Window {
   std::deque<WindowFrame> frames;
   std::map<FeatureId, Landmark> landmarks;
-  Pose T_BS;                 ///< camera in the body
-  double time_offset = 0.0;  ///< image stamp + time_offset is the IMU's clock [s]
+  Pose T_BS;                    ///< camera in the body
+  double time_offset = 0.0;     ///< image stamp + time_offset is the IMU's clock [s]
+  double typical_misfit = 0.0;  ///< median over the landmarks [rad]; zero: not known
   Prior prior;
 
   std::size_t slot(FrameId id) const;  ///< position in `frames` of a frame that is there

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <utility>
 
+#include "robot_agent/vins/misfit.hpp"
 #include "robot_agent/vins/triangulation.hpp"
 
 namespace cosight::vins {
@@ -41,23 +42,38 @@ void WindowOdometry::start(const FeatureFrame& frame, const NavState& state,
   window_.add_observations(frame);
 }
 
+void WindowOdometry::start(Window window) {
+  window_ = std::move(window);
+  while (window_.frames.size() >= options_.size)
+    slide(window_, true, options_);
+}
+
+WindowReport WindowOdometry::report_of_start() const {
+  const WindowFrame& newest = window_.frames.back();
+  WindowReport report{.stamp = newest.stamp, .state = newest.state, .predicted = newest.state};
+  report.solve.usable = true;
+  return report;
+}
+
 WindowReport WindowOdometry::process(const FeatureFrame& frame, std::vector<ImuSample> imu) {
   const GraphOptions& graph = options_.solver.graph;
   WindowReport report;
   report.stamp = frame.stamp;
   append_frame(window_, frame, {std::move(imu), window_.frames.back().state.bias, noise_}, graph.gravity);
+  report.predicted = window_.frames.back().state;
   report.keyframe = second_newest_is_keyframe(window_, options_.keyframe);
   report.tracked = count_tracked(window_, frame);
 
   triangulate_all(window_, graph.min_observations, options_.default_distance);
   update_geometry_factors(window_);
+  measure_misfits(window_, graph.min_observations);
   const Stopwatch solve_time;
   report.solve = solve(window_, options_.solver);
   report.solve_ms = solve_time.ms();
   report.state = window_.frames.back().state;
   report.geometry_factor = window_.frames.back().geometry_factor;
 
-  report.landmarks_dropped = drop_failed_landmarks(window_);
+  report.landmarks_dropped = drop_failed_landmarks(window_, options_);
   const Stopwatch marginalise_time;
   if (window_.frames.size() >= options_.size) slide(window_, report.keyframe, options_);
   report.marginalise_ms = marginalise_time.ms();

@@ -9,8 +9,9 @@ namespace cosight::vins {
 /// What one frame did to the window.
 struct WindowReport {
   Stamp stamp = 0;
-  NavState state;  ///< of the newest frame
-  SolveReport solve;
+  NavState state = {};      ///< of the newest frame
+  NavState predicted = {};  ///< the same by the IMU alone, from the frame before
+  SolveReport solve = {};
   bool keyframe = false;  ///< the second newest frame was kept
   double geometry_factor = 0.0;
   int tracked = 0;            ///< features of this frame that were seen before
@@ -31,7 +32,10 @@ class WindowOdometry {
   void start(const FeatureFrame& frame, const NavState& state, const StartUncertainty& uncertainty);
 
   /// Starts anew with the frames, landmarks and states of an initialisation.
-  void start(Window window) { window_ = std::move(window); }
+  void start(Window window);
+
+  /// The newest state right after such a start.
+  WindowReport report_of_start() const;
 
   /// The next frame, and all IMU samples from the newest frame's instant to this one's.
   WindowReport process(const FeatureFrame& frame, std::vector<ImuSample> imu);

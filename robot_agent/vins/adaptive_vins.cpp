@@ -1,0 +1,74 @@
+#include "robot_agent/vins/adaptive_vins.hpp"
+
+#include <utility>
+
+namespace cosight::vins {
+
+const char* to_string(VinsStatus status) {
+  switch (status) {
+    case VinsStatus::kWaitingForImu:
+      return "waiting for IMU";
+    case VinsStatus::kInitialising:
+      return "initialising";
+    case VinsStatus::kTracking:
+      return "tracking";
+    case VinsStatus::kFailed:
+      break;
+  }
+  return "failed";
+}
+
+VinsEstimate AdaptiveVins::process(const FeatureFrame& frame) {
+  const bool first = !tracking_ && waiting_.empty();
+  const Stamp from = first ? frame.stamp : last_frame_;
+  if (!imu_.covers(from, frame.stamp) || (!first && frame.stamp <= from)) {
+    return {.stamp = frame.stamp, .status = VinsStatus::kWaitingForImu, .restarts = restarts_};
+  }
+  VinsEstimate estimate = tracking_ ? track(frame) : initialise_with(frame);
+  estimate.stamp = frame.stamp;
+  estimate.restarts = restarts_;
+  imu_.drop_before(last_frame_);
+  return estimate;
+}
+
+VinsEstimate AdaptiveVins::initialise_with(const FeatureFrame& frame) {
+  VinsEstimate estimate{.status = VinsStatus::kInitialising};
+  UnplacedFrame next{frame, std::nullopt};
+  if (!waiting_.empty()) {
+    // A frame too soon after the last one is left out; the IMU samples stay for the next.
+    if (to_seconds(frame.stamp - last_frame_) < 0.99 * options_.initialisation_interval) return estimate;
+    next.imu.emplace(imu_.between(last_frame_, frame.stamp), ImuBias(), options_.noise);
+  }
+  last_frame_ = frame.stamp;
+  waiting_.push_back(std::move(next));
+  if (waiting_.size() > options_.initialisation.frames) {
+    waiting_.pop_front();
+    waiting_.front().imu.reset();
+  }
+  Initialisation started =
+      initialise({waiting_.begin(), waiting_.end()}, T_BS_, options_.initialisation, options_.window);
+  estimate.initialisation = started.outcome;
+  if (started.window) {
+    odometry_.start(std::move(*started.window));
+    tracking_ = true;
+    waiting_.clear();
+    estimate.status = VinsStatus::kTracking;
+    estimate.report = odometry_.report_of_start();
+  }
+  return estimate;
+}
+
+VinsEstimate AdaptiveVins::track(const FeatureFrame& frame) {
+  VinsEstimate estimate{.status = VinsStatus::kTracking, .initialisation = InitialisationOutcome::kReady};
+  estimate.report = odometry_.process(frame, imu_.between(last_frame_, frame.stamp));
+  last_frame_ = frame.stamp;
+  estimate.failure = detect_failure(*estimate.report, options_.failure);
+  if (estimate.failure != Failure::kNone) {
+    estimate.status = VinsStatus::kFailed;
+    tracking_ = false;
+    ++restarts_;
+  }
+  return estimate;
+}
+
+}  // namespace cosight::vins

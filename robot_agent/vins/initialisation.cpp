@@ -1,0 +1,149 @@
+#include "robot_agent/vins/initialisation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "robot_agent/vins/misfit.hpp"
+#include "robot_agent/vins/triangulation.hpp"
+#include "robot_agent/vins/uncertainty.hpp"
+#include "robot_agent/vins/velocity_and_gravity.hpp"
+
+namespace cosight::vins {
+namespace {
+
+std::size_t tracks_across(const std::vector<UnplacedFrame>& frames) {
+  const std::size_t third = frames.size() / 3;
+  std::map<FeatureId, int> seen;  // bit 0: in the first third, bit 1: in the last
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const int bit = i < third ? 1 : (i >= frames.size() - third ? 2 : 0);
+    for (const TrackedFeature& feature : frames[i].features.features)
+      seen[feature.id] |= bit;
+  }
+  return static_cast<std::size_t>(
+      std::count_if(seen.begin(), seen.end(), [](const auto& entry) { return entry.second == 3; }));
+}
+
+/// The frames with states predicted from the first one's, and landmarks without depth.
+Window place(const std::vector<UnplacedFrame>& frames, const Pose& T_BS, const MetricStart& start,
+             const ImuBias& bias, double gravity) {
+  Window window;
+  window.T_BS = T_BS;
+  WindowFrame first;
+  first.stamp = frames.front().features.stamp;
+  first.state.T_WB.q = Eigen::Quaterniond::FromTwoVectors(start.g_B, Eigen::Vector3d::UnitZ());
+  const Eigen::Vector3d heading = first.state.T_WB.q * Eigen::Vector3d::UnitX();
+  const Eigen::AngleAxisd unturn(-std::atan2(heading.y(), heading.x()), Eigen::Vector3d::UnitZ());
+  first.state.T_WB.q = (unturn * first.state.T_WB.q).normalized();
+  first.state.v_W = first.state.T_WB.q * start.v_B;
+  first.state.bias = bias;
+  window.frames.push_back(std::move(first));
+  window.add_observations(frames.front().features);
+  for (std::size_t i = 1; i < frames.size(); ++i) {
+    append_frame(window, frames[i].features, *frames[i].imu, gravity);
+  }
+  return window;
+}
+
+void set_bias(std::vector<UnplacedFrame>& frames, const ImuBias& bias) {
+  for (UnplacedFrame& frame : frames) {
+    if (frame.imu) frame.imu->repropagate(bias);
+  }
+}
+
+/// Standard deviation of the distance from the first to the last frame, in parts of it. The first frame is
+/// pinned by the prior, so that is the scale's.
+double scale_deviation(const Window& window, const GraphOptions& options) {
+  const auto P = state_covariance(window, options, window.frames.back().id);
+  const Eigen::Vector3d baseline = window.frames.back().state.T_WB.p - window.frames.front().state.T_WB.p;
+  const Eigen::Vector3d along = baseline.normalized();
+  return std::sqrt(along.dot(P.topLeftCorner<3, 3>() * along)) / baseline.norm();
+}
+
+/// The window's own least squares on top of the closed-form start.
+bool refine(Window& window, const InitialisationOptions& options, const WindowOptions& window_options) {
+  SolverOptions solver = window_options.solver;
+  solver.max_iterations = options.max_iterations;
+  solver.graph.trust.mode = TrustMode::kFixed;
+  window.prior = start_prior(window.frames.front(), options.prior);
+  triangulate_all(window, solver.graph.min_observations, window_options.default_distance);
+  const SolveReport report = solve(window, solver);
+  drop_failed_landmarks(window, window_options);
+  measure_misfits(window, solver.graph.min_observations);
+  return report.usable;
+}
+
+}  // namespace
+
+const char* to_string(InitialisationOutcome outcome) {
+  switch (outcome) {
+    case InitialisationOutcome::kReady:
+      return "ready";
+    case InitialisationOutcome::kTooFewFrames:
+      return "too few frames";
+    case InitialisationOutcome::kTooFewTracks:
+      return "too few tracks";
+    case InitialisationOutcome::kTooLittleParallax:
+      return "too little parallax";
+    case InitialisationOutcome::kNoSolution:
+      return "no solution";
+    case InitialisationOutcome::kScaleUnobservable:
+      return "scale unobservable";
+    case InitialisationOutcome::kInconsistent:
+      break;
+  }
+  return "camera and IMU inconsistent";
+}
+
+double median_parallax(const std::vector<UnplacedFrame>& frames, const Pose& T_BS) {
+  std::map<FeatureId, std::pair<Eigen::Vector3d, Eigen::Vector3d>> ends;
+  Eigen::Quaterniond q_B0B = Eigen::Quaterniond::Identity();
+  for (const UnplacedFrame& frame : frames) {
+    if (frame.imu) q_B0B = q_B0B * frame.imu->increment().gamma;
+    for (const TrackedFeature& feature : frame.features.features) {
+      const Eigen::Vector3d ray = q_B0B * (T_BS.q * feature.sighting.bearing(0.0));
+      ends.try_emplace(feature.id, ray, ray).first->second.second = ray;
+    }
+  }
+  std::vector<double> angles;
+  for (const auto& [id, rays] : ends)
+    angles.push_back((rays.first - rays.second).norm());
+  if (angles.empty()) return 0.0;
+  const auto middle = angles.begin() + static_cast<std::ptrdiff_t>(angles.size() / 2);
+  std::nth_element(angles.begin(), middle, angles.end());
+  return *middle;
+}
+
+Initialisation initialise(const std::vector<UnplacedFrame>& given, const Pose& T_BS,
+                          const InitialisationOptions& options, const WindowOptions& window_options) {
+  using enum InitialisationOutcome;
+  if (given.size() < options.frames) return {.outcome = kTooFewFrames};
+  if (to_seconds(given.back().features.stamp - given.front().features.stamp) < options.min_span) {
+    return {.outcome = kTooFewFrames};
+  }
+  if (tracks_across(given) < options.min_tracks) return {.outcome = kTooFewTracks};
+
+  std::vector<UnplacedFrame> frames = given;
+  const auto gyroscope_bias = estimate_gyroscope_bias(frames, T_BS);
+  if (!gyroscope_bias) return {.outcome = kNoSolution};
+  const ImuBias bias{Eigen::Vector3d::Zero(), *gyroscope_bias};
+  set_bias(frames, bias);
+  if (median_parallax(frames, T_BS) < options.min_parallax) return {.outcome = kTooLittleParallax};
+
+  const double gravity = window_options.solver.graph.gravity;
+  const auto start = estimate_velocity_and_gravity(frames, T_BS, gravity);
+  if (!start) return {.outcome = kNoSolution};
+  Window window = place(frames, T_BS, *start, bias, gravity);
+  if (!refine(window, options, window_options)) return {.outcome = kNoSolution};
+
+  Initialisation result;
+  result.typical_misfit = window.typical_misfit;
+  result.scale_deviation = scale_deviation(window, window_options.solver.graph);
+  result.outcome = kReady;
+  if (!(result.scale_deviation < options.max_scale_deviation)) result.outcome = kScaleUnobservable;
+  if (!(result.typical_misfit < options.max_misfit)) result.outcome = kInconsistent;
+  if (result.outcome == kReady) result.window = std::move(window);
+  return result;
+}
+
+}  // namespace cosight::vins

@@ -1,0 +1,43 @@
+#include "robot_agent/vins/misfit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace cosight::vins {
+namespace {
+
+double misfit(const Window& window, const Landmark& landmark) {
+  const Observation& host = landmark.observations.front();
+  const Pose T_WSi = window.T_WS(window.slot(host.frame));
+  const Eigen::Vector3d f_i = host.sighting.bearing(window.time_offset);
+  double squares = 0.0;
+  int count = 0;
+  for (std::size_t k = 1; k < landmark.observations.size(); ++k) {
+    const Observation& seen = landmark.observations[k];
+    if (seen.frame == window.frames.back().id) continue;
+    const Pose T_ji = window.T_WS(window.slot(seen.frame)).inverse() * T_WSi;
+    const Eigen::Vector3d h = T_ji.q * f_i + landmark.lambda * T_ji.p;
+    squares += (h.normalized() - seen.sighting.bearing(window.time_offset)).squaredNorm();
+    ++count;
+  }
+  constexpr int kMinSightings = 2;
+  return count < kMinSightings ? 0.0 : std::sqrt(squares / count);
+}
+
+}  // namespace
+
+void measure_misfits(Window& window, std::size_t min_observations) {
+  std::vector<double> known;
+  for (auto& [id, landmark] : window.landmarks) {
+    landmark.misfit = window.is_used(landmark, min_observations) ? misfit(window, landmark) : 0.0;
+    if (landmark.misfit > 0.0) known.push_back(landmark.misfit);
+  }
+  window.typical_misfit = 0.0;
+  if (known.empty()) return;
+  const auto middle = known.begin() + static_cast<std::ptrdiff_t>(known.size() / 2);
+  std::nth_element(known.begin(), middle, known.end());
+  window.typical_misfit = *middle;
+}
+
+}  // namespace cosight::vins

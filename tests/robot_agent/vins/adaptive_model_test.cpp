@@ -1,0 +1,84 @@
+#include "robot_agent/vins/adaptive_model.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace cosight::vins {
+namespace {
+
+TEST(GeometryFactor, IsThatOfThreeAxes) {
+  const std::vector<Eigen::Vector3d> axes{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  EXPECT_NEAR(geometry_factor(axes), std::sqrt(3.0), 1e-12);
+}
+
+TEST(GeometryFactor, FallsWithMoreFeaturesAndWithWiderOnes) {
+  const auto ring = [](int count, double width) {
+    std::vector<Eigen::Vector3d> directions;
+    for (int i = 0; i < count; ++i) {
+      const double a = 2.0 * std::numbers::pi * i / count;
+      directions.emplace_back(Eigen::Vector3d(width * std::cos(a), width * std::sin(a), 1.0).normalized());
+    }
+    return directions;
+  };
+  EXPECT_NEAR(geometry_factor(ring(40, 0.5)), geometry_factor(ring(10, 0.5)) / 2.0, 1e-9);
+  EXPECT_LT(geometry_factor(ring(10, 0.8)), geometry_factor(ring(10, 0.4)));
+}
+
+TEST(GeometryFactor, IsUnknownWhenAllFeaturesAreInOnePlane) {
+  EXPECT_EQ(geometry_factor({{1, 0, 0}, {0, 1, 0}}), 0.0);
+  EXPECT_EQ(geometry_factor({{1, 0, 0}, {0, 1, 0}, {0.6, 0.8, 0}}), 0.0);
+}
+
+TEST(Trust, OfTheFixedModeDoesNotLookAtTheFeature) {
+  TrustOptions options{.mode = TrustMode::kFixed};
+  EXPECT_EQ(trust(options, {1, 0.5, 0.0}).sqrt_information, trust(options, {50, 2.0, 0.0}).sqrt_information);
+  EXPECT_NEAR(trust(options, {1, 0.5, 0.0}).sqrt_information, options.focal_length / options.pixel_noise,
+              1e-9);
+}
+
+TEST(Trust, FollowsV26InEachReading) {
+  TrustOptions options{.mode = TrustMode::kTracking, .pixel_noise = 1.5};
+  const double fixed = 460.0 / 1.5;
+  const double w = 20 * 0.02 / 0.8;
+  options.information = InformationReading::kScalesRoot;
+  EXPECT_NEAR(trust(options, {20, 0.8, 0.0}).sqrt_information, fixed * w, 1e-9);
+  options.information = InformationReading::kScalesInformation;
+  EXPECT_NEAR(trust(options, {20, 0.8, 0.0}).sqrt_information, fixed * std::sqrt(w), 1e-9);
+  options.information = InformationReading::kAsPrinted;
+  EXPECT_NEAR(trust(options, {20, 0.8, 0.0}).sqrt_information, std::sqrt(fixed * w), 1e-9);
+}
+
+TEST(Trust, WithoutAGeometryFactorIsTheFixedOne) {
+  const TrustOptions options{.mode = TrustMode::kRobust};
+  EXPECT_EQ(trust(options, {9, 0.0, 0.0}).kernel, options.fixed_kernel);
+}
+
+TEST(Trust, HuberThresholdGrowsWithN) {
+  TrustOptions options{.mode = TrustMode::kRobust};
+  EXPECT_EQ(trust(options, {25, 1.0, 0.0}).kernel, Kernel::kHuber);
+  EXPECT_NEAR(trust(options, {25, 1.0, 0.0}).threshold, 0.5, 1e-12);
+  options.threshold = ThresholdReading::kRoot;
+  EXPECT_NEAR(trust(options, {25, 1.0, 0.0}).threshold, 0.1, 1e-12);
+}
+
+TEST(GuardedWeight, NeverTrustsMoreThanTheFixedMode) {
+  const TrustOptions options{.mode = TrustMode::kGuarded};
+  for (const int N : {1, 4, 20, 200}) {
+    for (const double misfit : {0.0, 1.0, 5.0}) {
+      EXPECT_LE(guarded_weight(options, {N, 0.1, misfit}), 1.0);
+      EXPECT_GT(guarded_weight(options, {N, 0.1, misfit}), 0.0);
+    }
+  }
+}
+
+TEST(GuardedWeight, FallsForYoungAndForBendingTracks) {
+  const TrustOptions options{.mode = TrustMode::kGuarded};
+  EXPECT_NEAR(guarded_weight(options, {200, 0.5, 0.0}), 1.0, 1e-12);
+  EXPECT_NEAR(guarded_weight(options, {4, 0.5, 0.0}), 0.5, 1e-12);
+  EXPECT_NEAR(guarded_weight(options, {200, 0.5, options.misfit_width}), 0.25, 1e-12);
+}
+
+}  // namespace
+}  // namespace cosight::vins

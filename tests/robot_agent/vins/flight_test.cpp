@@ -1,0 +1,103 @@
+// A real flight: Vicon truth, a 20 Hz camera and a 200 Hz IMU (euroc_v101_flight).
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "robot_agent/vins/adaptive_vins.hpp"
+#include "robot_agent/vins/feature_tracker.hpp"
+#include "shared/config/calibration.hpp"
+#include "shared/evaluation/error_statistics.hpp"
+#include "shared/evaluation/evaluation.hpp"
+#include "shared/evaluation/trajectory_reader.hpp"
+#include "shared/image/image_codec.hpp"
+
+namespace cosight::vins {
+namespace {
+
+std::filesystem::path flight() {
+  const char* const given = std::getenv("COSIGHT_DATA");
+  const std::filesystem::path data =
+      given != nullptr ? given : std::filesystem::path(COSIGHT_SOURCE_DIR) / "../shared/data";
+  return data / "euroc_v101_flight";
+}
+
+std::vector<ImuSample> read_imu(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  std::vector<ImuSample> samples;
+  std::string line;
+  std::getline(stream, line);
+  while (std::getline(stream, line)) {
+    std::replace(line.begin(), line.end(), ',', ' ');
+    std::istringstream fields(line);
+    ImuSample sample;
+    fields >> sample.stamp;
+    for (int i = 0; i < 3; ++i)
+      fields >> sample.angular_velocity_B(i);
+    for (int i = 0; i < 3; ++i)
+      fields >> sample.acceleration_B(i);
+    samples.push_back(sample);
+  }
+  return samples;
+}
+
+std::vector<std::pair<Stamp, std::string>> read_images(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  std::vector<std::pair<Stamp, std::string>> images;
+  std::string line;
+  std::getline(stream, line);
+  while (std::getline(stream, line)) {
+    std::istringstream fields(line);
+    std::string index;
+    std::string stamp;
+    std::string name;
+    std::getline(fields, index, ',');
+    std::getline(fields, stamp, ',');
+    fields >> name;
+    images.emplace_back(std::stoll(stamp), name);
+  }
+  return images;
+}
+
+VinsOptions euroc_options() {
+  VinsOptions options;
+  options.noise = {2.0e-3, 1.6968e-4, 3.0e-3, 1.9393e-5};
+  options.window.solver.graph.trust.pixel_noise = 0.5;
+  return options;
+}
+
+TEST(RealFlight, InitialisesWithinTwoSecondsAndStaysWithinThreeCentimetres) {
+  if (!std::filesystem::exists(flight())) GTEST_SKIP() << flight() << " is not there";
+  const CameraModel camera = load_camera_model(flight() / "calib.yaml");
+  const Pose T_BS = load_body_extrinsics(flight() / "calib.yaml").value();
+  AdaptiveVins vins(euroc_options(), T_BS);
+  for (const ImuSample& sample : read_imu(flight() / "imu.csv"))
+    vins.add_imu(sample);
+  FeatureTracker tracker(camera, {});
+  const auto images = read_images(flight() / "cam0.csv");
+  ASSERT_EQ(images.size(), 90U);
+
+  Trajectory estimate;
+  for (const auto& [stamp, name] : images) {
+    const VinsEstimate now = vins.process(tracker.track(stamp, read_image(flight() / "cam0" / name)));
+    if (now.status == VinsStatus::kTracking) estimate.push_back({stamp, now.report->state.T_WB * T_BS});
+  }
+  ASSERT_FALSE(estimate.empty());
+  const double until_ready = to_seconds(estimate.front().stamp - images.front().first);
+  EvaluationOptions compare;
+  compare.alignment = Alignment::kSe3;
+  const Evaluation result = evaluate(estimate, read_trajectory(flight() / "gt_cam0.tum"), compare);
+  const double ate = statistics_of(result.position_errors).rmse;
+  RecordProperty("until_ready_s", std::to_string(until_ready));
+  RecordProperty("ate_m", std::to_string(ate));
+  std::printf("ready after %.2f s, ATE %.4f m over %zu frames\n", until_ready, ate, result.pairs.size());
+  EXPECT_LE(until_ready, 2.0);
+  EXPECT_LE(ate, 0.03);
+}
+
+}  // namespace
+}  // namespace cosight::vins
