@@ -39,6 +39,7 @@ int main(int argc, char** argv) {
            "  robot_agent --config config/robot.yaml --device /dev/video0 --calibration camera.yaml\n"});
   add_agent_options(program)
       .option("--mode", "slam.mode", "collaborative, or mono: without the wearer once the scale is set")
+      .option("--wearer-pose", "wearer.pose_from", "where the wearer is: tracker, laser or auto")
       .option("--run-dir", "run_dir", "folder for trajectory, map, log and summary")
       .option("--wait-for-wearer", "start.wait_for_wearer",
               "seconds to wait for a wearer before the first frame");

@@ -42,6 +42,7 @@ RobotOptions read_robot_options(const ConfigNode& root) {
   options.dds = transport::read_participant_options(root.section("dds"), options.dds);
   options.inbox = read_inbox_options(root.section("inbox"));
   options.slam = read_slam_options(root.section("slam"));
+  options.wearer = read_wearer_section(root.section("wearer"));
   options.wait_for_wearer =
       root.section("start").number("wait_for_wearer", options.wait_for_wearer, 0.0, 86'400.0);
   options.run_dir = root.path("run_dir", options.run_dir);

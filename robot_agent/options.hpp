@@ -5,6 +5,7 @@
 
 #include "robot_agent/inbox/options.hpp"
 #include "robot_agent/slam/options.hpp"
+#include "robot_agent/wearer_options.hpp"
 #include "shared/config/config.hpp"
 #include "shared/dataset/agent_input.hpp"
 #include "shared/dataset/paced_replay.hpp"
@@ -20,6 +21,7 @@ struct RobotOptions {
   transport::ParticipantOptions dds;
   inbox::InboxOptions inbox;
   slam::SlamOptions slam;
+  WearerSection wearer;
   double wait_for_wearer = 10.0;  ///< before the first frame [s]; then the robot goes on alone
   std::filesystem::path run_dir = "runs/robot";
 };

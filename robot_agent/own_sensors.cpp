@@ -5,16 +5,24 @@
 namespace cosight::robot {
 
 OwnSensors::OwnSensors(const AgentInput& input, const ReplayOptions& replay,
-                       const transport::Participant& participant, inbox::Inbox& inbox,
+                       const transport::Participant& participant, Intake& intake, inbox::Inbox& inbox,
                        const std::atomic<bool>& stop)
     : camera_(input.camera),
       as_fast_as_possible_(!input.live && replay.rate <= 0.0),
+      intake_(intake),
       inbox_(inbox),
       stop_(stop),
       source_(input.live ? input.open() : std::make_unique<PacedReplay>(input.open, replay, clock_, stop)),
       frames_(participant, transport::topics::kRobotImageCompressed),
       calibration_(participant, transport::topics::kRobotCameraInfo),
-      poses_(participant, transport::topics::kRobotWearerPose) {}
+      front_scans_(participant, transport::topics::kRobotLaserFront),
+      rear_scans_(participant, transport::topics::kRobotLaserRear),
+      imu_(participant, transport::topics::kRobotImu),
+      odometry_(participant, transport::topics::kRobotWheelOdometry) {
+  if (input.has_wearer_pose && intake.takes_tracked_poses()) {
+    poses_.emplace(participant, transport::topics::kRobotWearerPose);
+  }
+}
 
 OwnSensors::~OwnSensors() {
   if (thread_.joinable()) thread_.join();
@@ -29,14 +37,23 @@ void OwnSensors::play() {
   while (auto sample = source_->next()) {
     if (is_first) calibration_.publish({stamp_of(*sample), camera_});
     is_first = false;
-    if (const auto* frame = std::get_if<ImageSample>(&*sample)) frames_.publish(*frame);
-    if (const auto* pose = std::get_if<WearerPoseSample>(&*sample)) poses_.publish(*pose);
-    inbox_.push(std::move(*sample));
+    publish(*sample);
+    intake_.push(std::move(*sample));
     constexpr Stamp kSlice = kNanosecondsPerSecond / 10;
     while (as_fast_as_possible_ && !stop_ && !inbox_.wait_for_room(kSlice)) {
     }
   }
-  inbox_.close();
+  intake_.close();
+}
+
+void OwnSensors::publish(const Sample& sample) {
+  if (const auto* frame = std::get_if<ImageSample>(&sample)) frames_.publish(*frame);
+  if (const auto* imu = std::get_if<ImuSample>(&sample)) imu_.publish(*imu);
+  if (const auto* odometry = std::get_if<WheelOdometrySample>(&sample)) odometry_.publish(*odometry);
+  if (const auto* pose = std::get_if<WearerPoseSample>(&sample); pose && poses_) poses_->publish(*pose);
+  if (const auto* scan = std::get_if<LaserScanSample>(&sample)) {
+    (scan->laser == transport::frames::kLaserFront ? front_scans_ : rear_scans_).publish(*scan);
+  }
 }
 
 void OwnSensors::report(outbox::YamlText& text) const {
@@ -49,6 +66,10 @@ void OwnSensors::report(outbox::YamlText& text) const {
       .value("stamp_went_back", counters.stamp_went_back)
       .value("gaps", counters.gaps);
   outbox::report(text, "dds_robot_image_compressed", frames_.counters());
+  outbox::report(text, "dds_robot_laser_front", front_scans_.counters());
+  outbox::report(text, "dds_robot_laser_rear", rear_scans_.counters());
+  outbox::report(text, "dds_robot_imu", imu_.counters());
+  outbox::report(text, "dds_robot_wheel_odometry", odometry_.counters());
 }
 
 }  // namespace cosight::robot

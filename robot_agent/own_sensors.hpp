@@ -2,9 +2,11 @@
 
 #include <atomic>
 #include <memory>
+#include <optional>
 #include <thread>
 
 #include "robot_agent/inbox/inbox.hpp"
+#include "robot_agent/intake.hpp"
 #include "robot_agent/outbox/yaml_text.hpp"
 #include "shared/dataset/agent_input.hpp"
 #include "shared/dataset/paced_replay.hpp"
@@ -13,13 +15,13 @@
 
 namespace cosight::robot {
 
-/// The robot's own camera and tracker, read in a thread of their own in the rhythm of their stamps: straight
-/// to the inbox, and to DDS for whoever records or watches.
+/// The robot's own camera, lasers, IMU, wheels and tracker, read in a thread of their own in the rhythm of
+/// their stamps: straight to the intake, and to DDS for whoever records or watches.
 class OwnSensors {
  public:
-  /// `inbox` and `stop` have to outlive this. Throws DatasetError or TransportError.
+  /// `intake`, `inbox` and `stop` have to outlive this. Throws DatasetError or TransportError.
   OwnSensors(const AgentInput& input, const ReplayOptions& replay, const transport::Participant& participant,
-             inbox::Inbox& inbox, const std::atomic<bool>& stop);
+             Intake& intake, inbox::Inbox& inbox, const std::atomic<bool>& stop);
   ~OwnSensors();
   OwnSensors(const OwnSensors&) = delete;
   OwnSensors& operator=(const OwnSensors&) = delete;
@@ -33,16 +35,22 @@ class OwnSensors {
 
  private:
   void play();
+  void publish(const Sample& sample);
 
   CameraModel camera_;
   bool as_fast_as_possible_;
+  Intake& intake_;
   inbox::Inbox& inbox_;
   const std::atomic<bool>& stop_;
   SteadyClock clock_;
   std::unique_ptr<SampleSource> source_;
   transport::Publisher<ImageSample> frames_;
   transport::Publisher<CameraInfoSample> calibration_;
-  transport::Publisher<WearerPoseSample> poses_;
+  transport::Publisher<LaserScanSample> front_scans_;
+  transport::Publisher<LaserScanSample> rear_scans_;
+  transport::Publisher<ImuSample> imu_;
+  transport::Publisher<WheelOdometrySample> odometry_;
+  std::optional<transport::Publisher<WearerPoseSample>> poses_;
   std::thread thread_;
 };
 

@@ -14,6 +14,19 @@ inbox::InboxOptions with_camera(inbox::InboxOptions options, const CameraModel& 
   return options;
 }
 
+/// Nothing when a tracker says where the wearer is, or nobody does.
+std::optional<LocatorPlan> plan_locator(const RobotOptions& options, const AgentInput& input) {
+  using enum WearerPoseFrom;
+  const bool is_auto = options.wearer.pose_from == kAuto;
+  const bool can_locate = !input.lasers.empty() && input.T_BS;
+  const bool locates = is_auto ? can_locate && !input.has_wearer_pose : options.wearer.pose_from == kLaser;
+  if (!locates) return std::nullopt;
+  const inbox::MountingOptions& mounting = options.inbox.mounting;
+  return LocatorPlan{with_mountings(options.wearer.tracking, input),
+                     {mounting.yaw_offset, mounting.yaw_offset_sigma},
+                     is_auto};
+}
+
 Stamp steady_now() {
   return std::chrono::steady_clock::now().time_since_epoch().count();
 }
@@ -27,12 +40,13 @@ RobotAgent::RobotAgent(const RobotOptions& options, const outbox::RunDescription
       input_(prepare_input(options.input, Agent::kRobot, stop)),
       participant_(options.dds),
       inbox_(with_camera(options.inbox, input_.camera)),
+      intake_(inbox_, participant_, plan_locator(options, input_)),
       slam_(input_.camera, options.slam, input_.known_points, steady_now),
       record_(outbox::RunFolder(options.run_dir), description),
       publisher_(participant_),
       presence_(participant_, transport::topics::kRobotHeartbeat, options.agent_id),
-      wearer_(participant_, inbox_, !input_.has_wearer_pose),
-      sensors_(input_, options.replay, participant_, inbox_, stop) {
+      wearer_(participant_, inbox_, intake_, !input_.has_wearer_pose && intake_.takes_tracked_poses()),
+      sensors_(input_, options.replay, participant_, intake_, inbox_, stop) {
   spdlog::info("robot '{}' on domain {}: {}", options.agent_id, options.dds.domain, sensors_.description());
 }
 
@@ -62,6 +76,7 @@ void RobotAgent::wait_for_wearer() {
 
 void RobotAgent::process(const FrameBundle& bundle, const Progress& progress) {
   const FrameEstimate estimate = slam_.process(bundle);
+  intake_.robot_is_at(estimate);
   record_.add(bundle, estimate);
   publisher_.publish(estimate, [this] { return slam_.map(); });
   const auto line =
@@ -78,6 +93,7 @@ std::vector<std::string> RobotAgent::finish() {
         text.section("inbox").counts(inbox::named_counts(counted)).top();
         sensors_.report(text);
         wearer_.report(text);
+        intake_.report(text);
         publisher_.report(text);
       });
   if (const auto lost = sensors_.counters().lost(); lost > 0) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "robot_agent/inbox/inbox.hpp"
+#include "robot_agent/intake.hpp"
 #include "robot_agent/options.hpp"
 #include "robot_agent/outbox/publisher.hpp"
 #include "robot_agent/outbox/run_record.hpp"
@@ -44,6 +45,7 @@ class RobotAgent {
   AgentInput input_;
   transport::Participant participant_;
   inbox::Inbox inbox_;
+  Intake intake_;
   slam::CollaborativeSlam slam_;
   outbox::RunRecord record_;
   outbox::StatusText status_;

@@ -17,7 +17,8 @@ auto push_frame(inbox::Inbox& inbox) {
 
 }  // namespace
 
-WearerLink::WearerLink(const transport::Participant& participant, inbox::Inbox& inbox, bool track_poses)
+WearerLink::WearerLink(const transport::Participant& participant, inbox::Inbox& inbox, Intake& intake,
+                       bool track_poses)
     : compressed_(participant, transport::topics::kWearableImageCompressed, push_frame(inbox)),
       raw_(participant, transport::topics::kWearableImage, push_frame(inbox)),
       calibration_(participant, transport::topics::kWearableCameraInfo,
@@ -26,17 +27,20 @@ WearerLink::WearerLink(const transport::Participant& participant, inbox::Inbox& 
                      has_calibration_ = true;
                    }),
       ahrs_(participant, transport::topics::kWearableImu,
-            [&inbox](AhrsSample&& sample, const Reception& reception) {
-              inbox.push_ahrs(std::move(sample), inbox::peer_of(reception.writer_id));
+            [&intake](AhrsSample&& sample, const Reception& reception) {
+              intake.push_ahrs(std::move(sample), inbox::peer_of(reception.writer_id));
             }),
-      heartbeat_(participant, transport::topics::kWearableHeartbeat,
-                 [&inbox](HeartbeatSample&&, const Reception& reception) {
-                   inbox.push_wearer_heartbeat(inbox::peer_of(reception.writer_id));
-                 }) {
+      heartbeat_(
+          participant, transport::topics::kWearableHeartbeat,
+          [&inbox](HeartbeatSample&&, const Reception& reception) {
+            inbox.push_wearer_heartbeat(inbox::peer_of(reception.writer_id));
+          },
+          [&inbox](const transport::WriterId& writer) { inbox.wearer_gone(inbox::peer_of(writer)); }) {
   if (!track_poses) return;
-  poses_.emplace(
-      participant, transport::topics::kRobotWearerPose,
-      [&inbox](WearerPoseSample&& sample, const Reception&) { inbox.push_wearer_pose(std::move(sample)); });
+  poses_.emplace(participant, transport::topics::kRobotWearerPose,
+                 [&intake](WearerPoseSample&& sample, const Reception& reception) {
+                   if (!reception.from_own_process) intake.push(std::move(sample));
+                 });
 }
 
 bool WearerLink::wait_for_wearer(std::chrono::milliseconds timeout, const std::atomic<bool>& stop) const {

@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "robot_agent/inbox/inbox.hpp"
+#include "robot_agent/intake.hpp"
 #include "robot_agent/outbox/yaml_text.hpp"
 #include "shared/transport/participant.hpp"
 #include "shared/transport/subscriber.hpp"
@@ -11,12 +12,13 @@
 
 namespace cosight::robot {
 
-/// Everything that comes from the wearer, and from whoever tracks it, handed to the inbox as it arrives.
+/// Everything that comes from the wearer, and from whoever tracks it, handed on as it arrives.
 class WearerLink {
  public:
-  /// `track_poses`: T_SF comes from a tracker on DDS, not from the robot's own input. `inbox` has to outlive
-  /// this.
-  WearerLink(const transport::Participant& participant, inbox::Inbox& inbox, bool track_poses);
+  /// `track_poses`: T_SF may come from a tracker on DDS, not from the robot's own input. `inbox` and `intake`
+  /// have to outlive this.
+  WearerLink(const transport::Participant& participant, inbox::Inbox& inbox, Intake& intake,
+             bool track_poses);
 
   /// True as soon as the wearer's calibration is known, which it sends with its first frame.
   bool wait_for_wearer(std::chrono::milliseconds timeout, const std::atomic<bool>& stop) const;

@@ -39,19 +39,26 @@ void Inbox::push_wearer_frame(ImageSample frame, const PeerId& peer) {
   arrived_.notify_one();
 }
 
-void Inbox::push_ahrs(AhrsSample sample, const PeerId& peer) {
+bool Inbox::push_ahrs(AhrsSample sample, const PeerId& peer) {
   sample.stamp = stamps_.from_wearer(sample.stamp);
   const std::lock_guard lock(mutex_);
   const Stamp now = clock_();
-  if (!admit(peer, now)) return;
+  if (!admit(peer, now)) return false;
   pairing_.add_ahrs(sample, now);
   arrived_.notify_one();
+  return true;
 }
 
 void Inbox::push_wearer_pose(WearerPoseSample sample) {
   sample.stamp = stamps_.from_robot(sample.stamp);
   const std::lock_guard lock(mutex_);
   pairing_.add_pose(sample, clock_());
+  arrived_.notify_one();
+}
+
+void Inbox::push_no_wearer_pose(Stamp stamp) {
+  const std::lock_guard lock(mutex_);
+  pairing_.add_no_pose(stamps_.from_robot(stamp), clock_());
   arrived_.notify_one();
 }
 

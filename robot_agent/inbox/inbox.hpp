@@ -30,8 +30,11 @@ class Inbox {
 
   void push_robot_frame(ImageSample frame);
   void push_wearer_frame(ImageSample frame, const PeerId& peer = {});
-  void push_ahrs(AhrsSample sample, const PeerId& peer = {});
+  /// False when it is not the wearer's: another process is, and alive.
+  bool push_ahrs(AhrsSample sample, const PeerId& peer = {});
   void push_wearer_pose(WearerPoseSample sample);
+  /// Whoever locates the wearer has come as far as `stamp`, and does not know.
+  void push_no_wearer_pose(Stamp stamp);
   void push_wearer_heartbeat(const PeerId& peer);
   /// The process left, or its liveliness was lost: nothing waits for it, and another may take its place.
   void wearer_gone(const PeerId& peer);

@@ -96,6 +96,11 @@ void Pairing::add_pose(const WearerPoseSample& sample, Stamp now) {
   }
 }
 
+void Pairing::add_no_pose(Stamp stamp, Stamp now) {
+  pose_source_.heard(now);
+  poses_.pass(stamp);
+}
+
 void Pairing::wearer_is_gone() {
   wearer_.gone();
   ahrs_source_.gone();

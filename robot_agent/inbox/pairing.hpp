@@ -60,6 +60,8 @@ class Pairing {
   void add_worn_frame(ImageSample frame, Stamp now);
   void add_ahrs(const AhrsSample& sample, Stamp now);
   void add_pose(const WearerPoseSample& sample, Stamp now);
+  /// The source of poses has come as far as `stamp` and has none to give: nobody need wait for it.
+  void add_no_pose(Stamp stamp, Stamp now);
   void wearer_is_alive(Stamp now) { wearer_.heard(now); }
 
   /// The wearer is gone: nothing waits for it. What it sent stays usable.

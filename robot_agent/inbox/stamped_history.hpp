@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <deque>
+#include <optional>
 
 #include "shared/dataset/stamp.hpp"
 
@@ -46,10 +47,16 @@ class StampedHistory {
 
   /// The stream has come as far as `stamp`: what belongs there has arrived, or was lost. Judged by the sample
   /// that arrived last, so that one absurd stamp does not stand for the stream.
-  bool reaches(Stamp stamp) const { return !samples_.empty() && last_arrived_ >= stamp; }
+  bool reaches(Stamp stamp) const { return last_arrived_ && *last_arrived_ >= stamp; }
+
+  /// The stream has come so far without a sample.
+  void pass(Stamp stamp) { last_arrived_ = std::max(stamp, last_arrived_.value_or(stamp)); }
 
   std::size_t size() const { return samples_.size(); }
-  void clear() { samples_.clear(); }
+  void clear() {
+    samples_.clear();
+    last_arrived_.reset();
+  }
 
  private:
   typename std::deque<T>::const_iterator first_not_before(Stamp stamp) const {
@@ -59,7 +66,7 @@ class StampedHistory {
 
   std::size_t capacity_;
   std::deque<T> samples_;
-  Stamp last_arrived_ = 0;
+  std::optional<Stamp> last_arrived_;
 };
 
 }  // namespace cosight::inbox

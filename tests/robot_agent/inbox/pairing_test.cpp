@@ -154,6 +154,20 @@ TEST_F(PairingTest, WaitsForThePoseOfTheChosenWornFrame) {
   EXPECT_EQ(paired->worn->pose.T_SF.T.p.x(), 0.7);
 }
 
+TEST_F(PairingTest, DoesNotWaitForAPoseThatNobodyHas) {
+  robot(0);
+  worn(0);
+  ahrs(0);
+  EXPECT_EQ(next_worn_stamp(), -2);
+  pairing_.add_no_pose(ms(-1), now_);
+  EXPECT_EQ(next_worn_stamp(), -2) << "it may still come to know";
+  pairing_.add_no_pose(ms(3), now_);
+  const auto paired = next();
+  ASSERT_TRUE(paired);
+  EXPECT_TRUE(paired->wearer_pose_missing);
+  EXPECT_EQ(counters().wait_timeouts, 0U);
+}
+
 TEST_F(PairingTest, InterpolatesThePoseWhenTheNextOneIsLate) {
   robot(ms(100));
   ahrs(ms(110));
