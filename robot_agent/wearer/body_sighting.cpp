@@ -68,6 +68,15 @@ bool stands_free(const PlanarScan& scan, const Points& points) {
   return true;
 }
 
+bool touch(const Points& a, const Points& b, double gap) {
+  for (const ScanPoint& p : a) {
+    for (const ScanPoint& q : b) {
+      if ((p.p_O - q.p_O).squaredNorm() < gap * gap) return true;
+    }
+  }
+  return false;
+}
+
 Limb fit(const PlanarScan& scan, const Points& points, double radius) {
   Limb limb = fit_cylinder(points, scan.origin_O(), radius, scan.sigma);
   limb.stands_free = stands_free(scan, points);
@@ -113,7 +122,7 @@ BodySighting one_leg(const std::vector<Limb>& limbs, std::size_t a, const Person
   if (leg.stands_free) {
     // Then the other leg is hidden behind this one: 0.2 to 0.5 m away, the axis in the middle.
     body.p_O += 0.75 * person.leg_spread * leg.along_ray;
-    body.covariance += along_and_across(leg.along_ray, 0.5 * person.leg_spread, 0.4 * person.leg_spread);
+    body.covariance += along_and_across(leg.along_ray, 0.6 * person.leg_spread, 0.6 * person.leg_spread);
   } else {
     body.covariance += person.leg_spread * person.leg_spread * Eigen::Matrix2d::Identity();
   }
@@ -166,10 +175,11 @@ Limb fit_cylinder(const Points& points, const Eigen::Vector2d& origin_O, double 
   return limb;
 }
 
-std::vector<Limb> find_limbs(const PlanarScan& scan, const Points& points, const SceneOptions& scene,
-                             const PersonModel& person) {
+std::vector<Limb> find_limbs(const PlanarScan& scan, const Points& points, const Points& furniture,
+                             const SceneOptions& scene, const PersonModel& person) {
   std::vector<Limb> limbs;
   for (const Points& cluster : clusters(points, scene.cluster_gap)) {
+    if (touch(cluster, furniture, scene.furniture_gap)) continue;
     if (!sees_torso(scan, person)) {
       add_legs(limbs, scan, cluster, person);
     } else if (cluster.size() > 1 && width(cluster) <= person.max_width) {

@@ -39,9 +39,11 @@ struct BodySighting {
 Limb fit_cylinder(const std::vector<ScanPoint>& points, const Eigen::Vector2d& origin_O, double radius,
                   double sigma);
 
-/// What of the points may be a leg or a torso.
+/// What of the points may be a leg or a torso. What touches the furniture may be a part of it: it is left
+/// out.
 std::vector<Limb> find_limbs(const PlanarScan& scan, const std::vector<ScanPoint>& points,
-                             const SceneOptions& scene, const PersonModel& person);
+                             const std::vector<ScanPoint>& furniture, const SceneOptions& scene,
+                             const PersonModel& person);
 
 /// Every way in which the limbs make up a body: pairs of legs, single legs, or torsos.
 std::vector<BodySighting> possible_bodies(const PlanarScan& scan, const std::vector<Limb>& limbs,

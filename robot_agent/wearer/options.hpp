@@ -25,11 +25,12 @@ inline std::map<std::string, LaserMount> default_lasers() {
 
 /// What of a scan is looked at, and what of it is furniture.
 struct SceneOptions {
-  double max_range = 12.0;         ///< what is further away is not looked at [m]
-  double max_person_range = 6.0;   ///< a leg further away brings back too few rays [m]
+  double max_range = 12.0;        ///< what is further away is not looked at [m]
+  double max_person_range = 6.0;  ///< a leg further away brings back too few rays [m]
   /// Rays that end inside this box of B meet the robot itself [m].
   Eigen::AlignedBox2d own_body{Eigen::Vector2d(-0.3, -0.25), Eigen::Vector2d(0.2, 0.25)};
   double cluster_gap = 0.12;    ///< points nearer to each other are of one thing [m]
+  double furniture_gap = 0.08;  ///< what is nearer to furniture may be a part of it [m]
   double wall_length = 0.7;     ///< points on a straight line of this length are a wall [m]
   double cell = 0.1;            ///< of the map of what stands still [m]
   double static_after = 0.8;    ///< a place occupied for so long belongs to the furniture [s]
@@ -42,7 +43,7 @@ struct PersonModel {
   double max_leg_width = 0.26;  ///< a wider cluster is two legs [m]
   double max_stride = 0.65;     ///< between the axes of the two legs [m]
   double leg_spread = 0.16;     ///< of a leg about the body's axis, 1 sigma each way [m]
-  double pair_sigma = 0.03;     ///< of the middle of two legs about the body's axis, each way [m]
+  double pair_sigma = 0.02;     ///< of the middle of two legs about the body's axis, each way [m]
   double torso_radius = 0.14;   ///< from the surface to the axis [m]
   double max_width = 0.8;       ///< of a torso, arms included [m]
   double hip_height = 0.85;     ///< a laser above this sees the torso [m]
@@ -51,7 +52,7 @@ struct PersonModel {
 
 /// How people move, and when a track of one begins and ends.
 struct TrackOptions {
-  double acceleration = 0.55;   ///< density of the white acceleration [m/s^2/sqrt(Hz)]
+  double acceleration = 0.4;   ///< density of the white acceleration [m/s^2/sqrt(Hz)]
   double unknown_motion = 1.5;  ///< the same while the robot's own motion is unknown
   double start_speed = 0.8;     ///< of a new track, 1 sigma each way [m/s]
   double gate = 13.8;           ///< squared Mahalanobis distance of a sighting: 99.9 % of two dof
@@ -76,11 +77,11 @@ struct StartOptions {
 /// x where the face points, z up.
 struct HeadOptions {
   double height = 1.65;                   ///< of H above the floor [m]
-  double height_sigma = 0.02;             ///< with the bob of the walk [m]
-  double sway_sigma = 0.015;              ///< of H about the body's axis, each way [m]
+  double height_sigma = 0.015;             ///< with the bob of the walk [m]
+  double sway_sigma = 0.012;              ///< of H about the body's axis, each way [m]
   Eigen::Vector3d p_HF{0.11, 0.0, 0.06};  ///< the camera on the head [m]
   Pose T_BS{Eigen::Quaterniond(0.5, -0.5, 0.5, -0.5), {0.1, 0.0, 0.85}};  ///< optical frame
-  double tilt_sigma = 0.003;     ///< roll and pitch of the robot [rad]
+  double tilt_sigma = 0.002;     ///< roll and pitch of the robot [rad]
   double max_ahrs_age = 0.1;     ///< of an orientation that is used for p_HF [s]
   double max_heading_age = 2.0;  ///< of the robot's heading in W; odometry carries it on [s]
 };

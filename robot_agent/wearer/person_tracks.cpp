@@ -26,9 +26,9 @@ bool any_claimed(const BodySighting& body, const std::vector<bool>& claimed) {
   return std::any_of(body.limbs.begin(), body.limbs.end(), [&](std::size_t limb) { return claimed[limb]; });
 }
 
-void claim(const BodySighting& body, std::vector<bool>& claimed) {
+void claim(const BodySighting& body, std::vector<bool>& claimed, bool by_somebody) {
   for (const std::size_t limb : body.limbs)
-    claimed[limb] = true;
+    claimed[limb] = by_somebody;
 }
 
 std::vector<bool> nothing_claimed(std::span<const BodySighting> bodies) {
@@ -40,6 +40,72 @@ std::vector<bool> nothing_claimed(std::span<const BodySighting> bodies) {
   return std::vector<bool>(limbs, false);
 }
 
+/// Depth first over the tracks: each takes one of its sightings or none; the least sum of costs wins.
+class JointAssignment {
+ public:
+  JointAssignment(std::span<const PersonTrack> tracks, std::span<const BodySighting> bodies,
+                  const TrackOptions& options)
+      : bodies_(bodies), claimed_(nothing_claimed(bodies)) {
+    for (std::size_t t = 0; t < tracks.size(); ++t) {
+      std::vector<Option> ways;
+      for (std::size_t b = 0; b < bodies.size(); ++b) {
+        const auto c = cost(tracks[t], bodies[b], options);
+        if (c && *c < kUnseen) ways.push_back({*c - kUnseen, {t, b}});
+      }
+      if (ways.empty()) continue;
+      std::stable_sort(ways.begin(), ways.end(),
+                       [](const auto& a, const auto& b) { return a.cost < b.cost; });
+      ways_.push_back(std::move(ways));
+    }
+    // What all tracks from the k-th on can gain at best, were there nobody else.
+    at_best_.assign(ways_.size() + 1, 0.0);
+    for (std::size_t k = ways_.size(); k-- > 0;)
+      at_best_[k] = at_best_[k + 1] + ways_[k].front().cost;
+  }
+
+  std::vector<Assignment> best() {
+    descend(0, 0.0);
+    return best_;
+  }
+
+ private:
+  struct Option {
+    double cost = 0.0;  ///< against not being seen
+    Assignment pair;
+  };
+
+  static constexpr double kUnseen = 4.6;  // -2 ln of one scan in ten
+  static constexpr int kMaxSteps = 20'000;
+
+  void descend(std::size_t k, double cost_so_far) {
+    if (cost_so_far + at_best_[k] >= best_cost_ || ++steps_ > kMaxSteps) return;
+    if (k == ways_.size()) {
+      best_cost_ = cost_so_far;
+      best_ = chosen_;
+      return;
+    }
+    for (const Option& way : ways_[k]) {
+      const BodySighting& body = bodies_[way.pair.body];
+      if (any_claimed(body, claimed_)) continue;
+      claim(body, claimed_, true);
+      chosen_.push_back(way.pair);
+      descend(k + 1, cost_so_far + way.cost);
+      chosen_.pop_back();
+      claim(body, claimed_, false);
+    }
+    descend(k + 1, cost_so_far);
+  }
+
+  std::span<const BodySighting> bodies_;
+  std::vector<std::vector<Option>> ways_;  ///< of each track that has any, the cheapest first
+  std::vector<double> at_best_;
+  std::vector<bool> claimed_;
+  std::vector<Assignment> chosen_;
+  std::vector<Assignment> best_;
+  double best_cost_ = 1e-9;
+  int steps_ = 0;
+};
+
 }  // namespace
 
 double PersonTrack::worst_sigma() const {
@@ -49,7 +115,7 @@ double PersonTrack::worst_sigma() const {
 
 bool PersonTrack::has_moved() const {
   constexpr double kStep = 0.4;  // [m]
-  return (p_O() - born_at).norm() > kStep;
+  return (p_O() - born_at).norm() > kStep + 2.0 * worst_sigma();
 }
 
 void PersonTrack::predict(double dt, double acceleration) {
@@ -64,8 +130,8 @@ void PersonTrack::predict(double dt, double acceleration) {
   x = F * x;
 }
 
-void PersonTrack::update(const BodySighting& body) {
-  const Eigen::Matrix2d S = position_covariance() + body.correlation * body.covariance;
+void PersonTrack::update(const BodySighting& body, double doubt) {
+  const Eigen::Matrix2d S = position_covariance() + doubt * body.correlation * body.covariance;
   const Eigen::Matrix<double, 4, 2> K = P.leftCols<2>() * S.inverse();
   x += K * (body.p_O - p_O());
   P -= K * S * K.transpose();
@@ -75,28 +141,7 @@ void PersonTrack::update(const BodySighting& body) {
 
 std::vector<Assignment> assign(std::span<const PersonTrack> tracks, std::span<const BodySighting> bodies,
                                const TrackOptions& options) {
-  struct Option {
-    double cost = 0.0;
-    Assignment pair;
-  };
-  std::vector<Option> ways;
-  for (std::size_t t = 0; t < tracks.size(); ++t) {
-    for (std::size_t b = 0; b < bodies.size(); ++b) {
-      if (const auto c = cost(tracks[t], bodies[b], options)) ways.push_back({*c, {t, b}});
-    }
-  }
-  std::stable_sort(ways.begin(), ways.end(),
-                   [](const Option& a, const Option& b) { return a.cost < b.cost; });
-  std::vector<bool> claimed = nothing_claimed(bodies);
-  std::vector<bool> served(tracks.size(), false);
-  std::vector<Assignment> result;
-  for (const Option& way : ways) {
-    if (served[way.pair.track] || any_claimed(bodies[way.pair.body], claimed)) continue;
-    served[way.pair.track] = true;
-    claim(bodies[way.pair.body], claimed);
-    result.push_back(way.pair);
-  }
-  return result;
+  return JointAssignment(tracks, bodies, options).best();
 }
 
 void PersonTracks::predict(Stamp stamp, double acceleration) {
@@ -108,17 +153,25 @@ void PersonTracks::predict(Stamp stamp, double acceleration) {
 
 void PersonTracks::update(Stamp stamp, std::span<const BodySighting> bodies,
                           std::optional<std::uint64_t> keep) {
+  constexpr double kCrowd = 5.0;  // a leg may be somebody else's
   std::vector<bool> claimed = nothing_claimed(bodies);
   parts_.clear();
   for (const Assignment& pair : assign(tracks_, bodies, options_)) {
     PersonTrack& track = tracks_[pair.track];
-    track.update(bodies[pair.body]);
+    track.update(bodies[pair.body], crowded(track) ? kCrowd : 1.0);
     track.seen = stamp;
     parts_.emplace_back(track.id, bodies[pair.body].part);
-    claim(bodies[pair.body], claimed);
+    claim(bodies[pair.body], claimed, true);
   }
   begin(stamp, bodies, claimed);
   end(stamp, keep);
+}
+
+bool PersonTracks::crowded(const PersonTrack& track) const {
+  constexpr double kReach = 0.7;  // of another one's legs [m]
+  return std::any_of(tracks_.begin(), tracks_.end(), [&](const PersonTrack& other) {
+    return other.id != track.id && other.has_moved() && (other.p_O() - track.p_O()).norm() < kReach;
+  });
 }
 
 void PersonTracks::begin(Stamp stamp, std::span<const BodySighting> bodies, std::vector<bool>& claimed) {
@@ -135,7 +188,7 @@ void PersonTracks::begin(Stamp stamp, std::span<const BodySighting> bodies, std:
                          return (track.p_O() - body->p_O).norm() < kNotTwice;
                        });
     if (taken || tracks_.size() >= kMaxTracks) continue;
-    claim(*body, claimed);
+    claim(*body, claimed, true);
     PersonTrack track;
     track.id = next_id_++;
     track.x.head<2>() = body->p_O;

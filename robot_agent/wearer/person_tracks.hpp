@@ -32,7 +32,8 @@ struct PersonTrack {
 
   ///   F = [1 dt; 0 1],   Q = q^2 [dt^3/3 dt^2/2; dt^2/2 dt]
   void predict(double dt, double acceleration);
-  void update(const BodySighting& body);
+  /// With `doubt` times the covariance of the sighting.
+  void update(const BodySighting& body, double doubt);
 };
 
 /// What one scan was to one track.
@@ -65,6 +66,7 @@ class PersonTracks {
   std::optional<BodyPart> seen_part(std::uint64_t id) const;
 
  private:
+  bool crowded(const PersonTrack& track) const;
   void begin(Stamp stamp, std::span<const BodySighting> bodies, std::vector<bool>& claimed);
   void end(Stamp stamp, std::optional<std::uint64_t> keep);
 

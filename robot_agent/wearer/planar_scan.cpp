@@ -31,13 +31,21 @@ double worst_distance(std::span<const ScanPoint> points) {
   return worst;
 }
 
+/// The distances between neighbours on a wall change little by little [m].
+bool alike(double gap_a, double gap_b) {
+  constexpr double kAlways = 0.15;
+  constexpr double kRatio = 2.5;
+  return std::max(gap_a, gap_b) <= std::max(kAlways, kRatio * std::min(gap_a, gap_b));
+}
+
 /// How many of the points lie on one straight line, from the first on.
 std::size_t straight_run(std::span<const ScanPoint> points, double tolerance) {
   constexpr int kMaxMissing = 3;   // rays that may have brought nothing back
   constexpr double kMaxGap = 1.0;  // [m]
+  const auto gap = [&](std::size_t k) { return (points[k].p_O - points[k - 1].p_O).norm(); };
   std::size_t count = 1;
   while (count < points.size() && points[count].ray - points[count - 1].ray <= kMaxMissing &&
-         (points[count].p_O - points[count - 1].p_O).norm() <= kMaxGap &&
+         gap(count) <= kMaxGap && (count == 1 || alike(gap(count), gap(count - 1))) &&
          worst_distance(points.first(count + 1)) <= tolerance) {
     ++count;
   }
@@ -82,18 +90,23 @@ std::optional<PlanarScan> seen_from_above(const LaserScanSample& sample, const L
   return scan;
 }
 
-std::vector<ScanPoint> without_walls(const PlanarScan& scan, double length) {
+std::vector<ScanPoint> take_walls(std::vector<ScanPoint>& points, double length, double sigma) {
   constexpr std::size_t kFewest = 4;
-  const double tolerance = 2.5 * scan.sigma;
-  std::vector<ScanPoint> kept;
-  const std::span<const ScanPoint> points(scan.points);
-  for (std::size_t from = 0; from < points.size();) {
-    const std::size_t run = straight_run(points.subspan(from), tolerance);
-    const bool wall = run >= kFewest && (points[from + run - 1].p_O - points[from].p_O).norm() >= length;
-    if (!wall) kept.push_back(points[from]);
-    from += wall ? run : 1;
+  const double tolerance = 2.5 * sigma;
+  std::vector<ScanPoint> walls;
+  std::vector<ScanPoint> others;
+  const std::span<const ScanPoint> all(points);
+  for (std::size_t from = 0; from < all.size();) {
+    const std::size_t run = straight_run(all.subspan(from), tolerance);
+    const bool wall = run >= kFewest && (all[from + run - 1].p_O - all[from].p_O).norm() >= length;
+    const std::size_t taken = wall ? run : 1;
+    std::vector<ScanPoint>& kind = wall ? walls : others;
+    for (std::size_t k = from; k < from + taken; ++k)
+      kind.push_back(all[k]);
+    from += taken;
   }
-  return kept;
+  points = std::move(others);
+  return walls;
 }
 
 }  // namespace cosight::wearer

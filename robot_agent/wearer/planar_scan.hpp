@@ -34,8 +34,8 @@ struct PlanarScan {
 std::optional<PlanarScan> seen_from_above(const LaserScanSample& sample, const LaserMount& mount,
                                           const Pose& T_OB, const SceneOptions& options);
 
-/// The points that do not lie on straight lines of `length` [m] or more: no walls and no sides of large
-/// furniture, also where they are seen so obliquely that their points lie far apart.
-std::vector<ScanPoint> without_walls(const PlanarScan& scan, double length);
+/// Takes the points that lie on straight lines of `length` [m] or more out of `points`, in their order: walls
+/// and the sides of large furniture, also where they are seen so obliquely that their points lie far apart.
+std::vector<ScanPoint> take_walls(std::vector<ScanPoint>& points, double length, double sigma);
 
 }  // namespace cosight::wearer

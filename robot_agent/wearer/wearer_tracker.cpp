@@ -53,19 +53,26 @@ std::optional<WearerPoseSample> WearerTracker::add_scan(const LaserScanSample& s
 }
 
 std::vector<BodySighting> WearerTracker::bodies_in(const PlanarScan& scan) const {
-  std::vector<ScanPoint> points = without_walls(scan, options_.scene.wall_length);
+  std::vector<ScanPoint> points = scan.points;
   std::erase_if(points, [&](const ScanPoint& point) {
-    return (point.p_O - scan.origin_O()).norm() > options_.scene.max_person_range ||
-           furniture_.is_static(point.p_O);
+    return (point.p_O - scan.origin_O()).norm() > options_.scene.max_person_range;
   });
-  const std::vector<Limb> limbs = find_limbs(scan, points, options_.scene, options_.person);
+  std::vector<ScanPoint> furniture = take_walls(points, options_.scene.wall_length, scan.sigma);
+  std::erase_if(points, [&](const ScanPoint& point) {
+    const bool still = furniture_.is_static(point.p_O);
+    if (still) furniture.push_back(point);
+    return still;
+  });
+  const std::vector<Limb> limbs = find_limbs(scan, points, furniture, options_.scene, options_.person);
   return possible_bodies(scan, limbs, options_.person);
 }
 
 void WearerTracker::remember_furniture(const PlanarScan& scan) {
+  constexpr double kInSight = 0.3;  // [s]
   std::vector<Eigen::Vector2d> people;
   for (const PersonTrack& track : people_.all()) {
-    if (track.id == wearer_ || track.has_moved()) people.push_back(track.p_O());
+    const bool in_sight = to_seconds(scan.stamp - track.seen) < kInSight;
+    if (in_sight && (track.id == wearer_ || track.has_moved())) people.push_back(track.p_O());
   }
   furniture_.observe(scan, people);
 }
@@ -82,8 +89,7 @@ void WearerTracker::forget_the_lost(Stamp stamp) {
 bool WearerTracker::may_be_wearer(const PersonTrack& track, Stamp stamp, const Pose& T_OB) const {
   const StartOptions& start = options_.start;
   constexpr int kFewest = 4;
-  if (track.seen != stamp || track.sightings < kFewest ||
-      to_seconds(stamp - track.born) < start.seen_for)
+  if (track.seen != stamp || track.sightings < kFewest || to_seconds(stamp - track.born) < start.seen_for)
     return false;
   if (last_place_) {
     const double reach = start.radius + start.search_speed * to_seconds(stamp - last_place_->stamp);
