@@ -1,0 +1,97 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "experiments/consistency/monte_carlo.hpp"
+#include "experiments/csv_file.hpp"
+#include "experiments/figures.hpp"
+#include "shared/program/program.hpp"
+
+namespace {
+
+using namespace cosight;               // NOLINT(google-build-using-namespace): a program's own file
+using namespace cosight::experiments;  // NOLINT(google-build-using-namespace)
+namespace fs = std::filesystem;
+
+struct Mode {
+  const char* name;
+  RunOptions options;
+};
+
+std::vector<Mode> modes() {
+  std::vector<Mode> all;
+  const auto add = [&all](const char* name, auto change) {
+    Mode mode{name, {}};
+    change(mode.options);
+    all.push_back(mode);
+  };
+  add("collaborative", [](RunOptions&) {});
+  add("always", [](RunOptions& o) { o.glance_steps = o.glance_period; });
+  add("mono", [](RunOptions& o) { o.last_glance = 5; });
+  add("corridor", [](RunOptions& o) {
+    o.world.shape = WorldShape::kCorridor;
+    o.world.sigma_angular_acceleration = 0.05;
+    o.world.sigma_acceleration = 0.1;
+  });
+  add("uncorrelated_updates", [](RunOptions& o) {
+    o.filter.correlated_wearer_pose = false;
+    o.correlated_starts = true;
+  });
+  add("uncorrelated_starts", [](RunOptions& o) { o.correlated_starts = false; });
+  add("metric_points", [](RunOptions& o) { o.filter.point_form = ekf::PointForm::kEuclidean; });
+  add("paper", [](RunOptions& o) {
+    o.filter.point_form = ekf::PointForm::kEuclidean;
+    o.filter.correlated_wearer_pose = false;
+    o.correlated_starts = false;
+    o.first_pose = FirstPose::kIndependent;
+  });
+  add("iterated", [](RunOptions& o) { o.filter.max_iterations = 4; });
+  add("independent_first_pose", [](RunOptions& o) { o.first_pose = FirstPose::kIndependent; });
+  add("overconfident", [](RunOptions& o) { o.claimed_variance = 1.0 / 3.0; });
+  return all;
+}
+
+void write_course(const fs::path& file, const RunOptions& options, const ConsistencyCourse& course) {
+  CsvFile csv(file, "t,pose_nees,position_nees,nis_pixel,nis_point,nis_joint,position_error");
+  for (std::size_t k = 0; k < course.mean.size(); ++k) {
+    const StepResult& step = course.mean[k];
+    csv.row({options.world.dt * static_cast<double>(k + 1), step.pose_nees, step.position_nees,
+             step.pixels.mean_per_row(), step.points.mean_per_row(), step.joint.mean_per_row(),
+             step.position_error});
+  }
+  csv.close();
+}
+
+void run(const fs::path& folder, int runs) {
+  fs::create_directories(folder);
+  Figures figures;
+  for (const Mode& mode : modes()) {
+    const ConsistencyCourse course = monte_carlo(mode.options, runs);
+    write_course(folder / (std::string("nees_") + mode.name + ".csv"), mode.options, course);
+    summarise(course, mode.name, figures);
+  }
+  figures.write_summary(folder);
+  std::fputs(figures.table().c_str(), stdout);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Program program({.name = "experiment_consistency",
+                   .purpose = "Is the filter as wrong as it says? Monte Carlo with exact truth.",
+                   .examples = "  experiment_consistency --out runs/consistency\n"});
+  fs::path folder;
+  int runs = 50;
+  program.command_line().add_option("--out", folder, "folder for the results")->required();
+  program.command_line()
+      .add_option("--runs", runs, "Monte Carlo runs of each mode")
+      ->check(CLI::Range(1, 10'000))
+      ->capture_default_str();
+  return program.run(argc, argv, [&](const ConfigFile& config, const std::atomic<bool>&) {
+    config.refuse_unknown_keys();
+    run(folder, runs);
+    return ExitCode::kDone;
+  });
+}
