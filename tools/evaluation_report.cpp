@@ -48,6 +48,20 @@ void write_metrics_json(const std::filesystem::path& path, const std::vector<Met
   require_written(file, path);
 }
 
+std::vector<Metric> read_metrics_json(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  if (!file) throw EvaluationError(path.string() + ": cannot be opened; did this run fail?");
+  std::vector<Metric> metrics;
+  try {
+    const auto json = nlohmann::ordered_json::parse(file);
+    for (const auto& [name, value] : json.items())
+      metrics.push_back({name, value.is_number() ? std::optional(value.get<double>()) : std::nullopt});
+  } catch (const nlohmann::json::exception& error) {
+    throw EvaluationError(path.string() + ": is not JSON: " + error.what());
+  }
+  return metrics;
+}
+
 void write_errors_csv(const std::filesystem::path& path, const Evaluation& evaluation) {
   std::ofstream file(path);
   file << "stamp_ns,time_s,truth_x_m,truth_y_m,truth_z_m,estimate_x_m,estimate_y_m,estimate_z_m,"

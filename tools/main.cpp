@@ -2,6 +2,7 @@
 #include <exception>
 #include <iostream>
 
+#include "tools/aggregate_command.hpp"
 #include "tools/evaluate_command.hpp"
 #include "tools/info_command.hpp"
 #include "tools/prepare_command.hpp"
@@ -21,6 +22,7 @@ int run(int argc, char** argv) {
   cosight::add_prepare_command(program);
   cosight::add_evaluate_command(program);
   cosight::add_summarise_command(program);
+  cosight::add_aggregate_command(program);
   cosight::add_record_command(program);
   cosight::add_info_command(program);
   cosight::add_recover_command(program);

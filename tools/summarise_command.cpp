@@ -11,6 +11,7 @@
 
 #include "shared/config/config.hpp"
 #include "shared/evaluation/evaluation_error.hpp"
+#include "tools/evaluation_report.hpp"
 #include "tools/trajectory_plot.hpp"
 
 namespace cosight {
@@ -28,16 +29,6 @@ struct SummariseArguments {
       "frame_ms_p99",  "cpu_percent",      "wearer_cpu_percent",  "bytes_per_s"};
 };
 
-Json read_json(const fs::path& path) {
-  std::ifstream file(path);
-  if (!file) throw EvaluationError(path.string() + ": cannot be opened; did this mode's run fail?");
-  try {
-    return Json::parse(file);
-  } catch (const Json::parse_error& error) {
-    throw EvaluationError(path.string() + ": is not JSON: " + error.what());
-  }
-}
-
 /// Copies a number of a program's summary.yaml under a name of the summary.
 void take(Json& metrics, const fs::path& summary, const std::string& key, const std::string& name) {
   if (!fs::exists(summary)) return;
@@ -46,7 +37,9 @@ void take(Json& metrics, const fs::path& summary, const std::string& key, const 
 }
 
 Json metrics_of(const fs::path& run) {
-  Json metrics = read_json(run / "evaluation.json");
+  Json metrics = Json::object();
+  for (const Metric& metric : read_metrics_json(run / "evaluation.json"))
+    metrics[metric.name] = metric.value ? Json(*metric.value) : Json(nullptr);
   take(metrics, run / "summary.yaml", "cpu_percent", "cpu_percent");
   take(metrics, run / "wearable_summary.yaml", "cpu_percent", "wearer_cpu_percent");
   take(metrics, run / "wearable_summary.yaml", "bytes_per_s", "bytes_per_s");

@@ -29,23 +29,23 @@ wait_for() {
   wait "$pid"
 }
 
-# run_agents DATASET RUN_DIR MODE [ROBOT_OPTION…]: one run; `gate` (a variable) names the times at which the wearer
-# looks, empty for always. The robot's results and both logs end in RUN_DIR. A dataset without a wearer runs the robot
-# alone.
+# run_agents DATASET RUN_DIR MODE [ROBOT_OPTION…]: one run; the robot's results and both logs end in RUN_DIR. A dataset
+# without a wearer runs the robot alone. Variables, each empty for the usual: `gate`, the times at which the wearer looks;
+# `replay_rate`, times real time; `run_domain`, the DDS domain.
 run_agents() {
   local dataset=$1 run_dir=$2 mode=$3 domain robot wearer='' status=0 patience=()
   shift 3
-  domain=$(private_domain)
+  domain=${run_domain:-$(private_domain)}
   rm -rf "$run_dir"
   mkdir -p "$run_dir"
   [[ ! -d $dataset/wearer ]] || patience=(--wait-for-wearer 20)
   "$programs/robot_agent" --config "$source_dir/config/robot.yaml" --dataset "$dataset" --mode "$mode" \
-    --run-dir "$run_dir" --domain "$domain" "${patience[@]}" "$@" >"$run_dir.robot.log" 2>&1 &
+    --run-dir "$run_dir" --domain "$domain" "${patience[@]}" ${replay_rate:+--rate "$replay_rate"} "$@" >"$run_dir.robot.log" 2>&1 &
   robot=$!
   agent_pids+=("$robot")
   if [[ -d $dataset/wearer ]]; then
     "$programs/wearable_agent" --config "$source_dir/config/wearable.yaml" --dataset "$dataset" --domain "$domain" \
-      --wait-for-robot 20 --summary "$run_dir.wearable.yaml" ${gate:+--gate "$gate"} >"$run_dir.wearable.log" 2>&1 &
+      --wait-for-robot 20 --summary "$run_dir.wearable.yaml" ${gate:+--gate "$gate"} ${replay_rate:+--rate "$replay_rate"} >"$run_dir.wearable.log" 2>&1 &
     wearer=$!
     agent_pids+=("$wearer")
   fi

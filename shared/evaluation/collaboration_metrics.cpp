@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 namespace cosight {
 namespace {
@@ -17,6 +18,21 @@ double duration(const std::vector<FrameRecord>& frames, std::size_t i) {
   return to_seconds(frames[from + 1].stamp - frames[from].stamp);
 }
 
+/// Whether each frame lies in an overlap: a frame or two without a match between others with one are no gap.
+std::vector<bool> with_blinks_closed(const std::vector<FrameRecord>& frames) {
+  constexpr Stamp kBlink = 350'000'000;  // [ns]
+  std::vector<bool> overlap(frames.size());
+  std::optional<std::size_t> last;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    if (!frames[i].pseudo_stereo) continue;
+    const bool blinked = last && frames[i].stamp - frames[*last].stamp <= kBlink;
+    for (std::size_t k = blinked ? *last : i; k <= i; ++k)
+      overlap[k] = true;
+    last = i;
+  }
+  return overlap;
+}
+
 }  // namespace
 
 double OverlapPeriods::total_overlap() const {
@@ -29,9 +45,10 @@ double OverlapPeriods::total_time() const {
 OverlapPeriods overlap_periods(const std::vector<FrameRecord>& frames) {
   OverlapPeriods periods;
   if (frames.size() < 2) return periods;
+  const std::vector<bool> overlap = with_blinks_closed(frames);
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    std::vector<double>& kind = frames[i].overlap ? periods.overlaps : periods.gaps;
-    if (i == 0 || frames[i].overlap != frames[i - 1].overlap) kind.push_back(0.0);
+    std::vector<double>& kind = overlap[i] ? periods.overlaps : periods.gaps;
+    if (i == 0 || overlap[i] != overlap[i - 1]) kind.push_back(0.0);
     kind.back() += duration(frames, i);
   }
   return periods;

@@ -8,7 +8,8 @@
 
 namespace cosight {
 
-/// How long the two cameras saw the same place, and how long they did not, period by period [s].
+/// How long the worn camera gave measurements, which is the paper's overlap time (C section 5.4), and how
+/// long it did not, period by period [s]. Gaps of a third of a second are none.
 struct OverlapPeriods {
   std::vector<double> overlaps;  ///< eta_i
   std::vector<double> gaps;      ///< mu_j

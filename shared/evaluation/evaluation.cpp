@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 #include "shared/dataset/number_text.hpp"
@@ -73,6 +74,7 @@ void add_position_errors(std::vector<Metric>& metrics, const Evaluation& evaluat
   add_statistics(metrics, "ate_rotation", "deg", evaluation.rotation_errors, kDegrees);
   metrics.push_back({"final_error_m", evaluation.position_errors.back()});
   metrics.push_back({"final_error_percent", percent(evaluation.position_errors.back(), path)});
+  metrics.push_back({"final_rotation_error_deg", kDegrees * evaluation.rotation_errors.back()});
   metrics.push_back({"mean_error_m", statistics.mean});
   metrics.push_back({"mean_error_percent", percent(statistics.mean, path)});
   metrics.push_back({"accumulated_error_m", statistics.mean * static_cast<double>(statistics.count)});
@@ -122,6 +124,10 @@ void add_frames(std::vector<Metric>& metrics, const std::vector<FrameRecord>& fr
   const auto share = [&](auto value) { return statistics_of(values_of(frames, value)).mean; };
   metrics.push_back({"landmarks_median", quantile(landmarks, 0.5)});
   metrics.push_back({"pseudo_stereo_share", share([](const FrameRecord& f) { return f.pseudo_stereo; })});
+  const auto total = [](const std::vector<double>& v) { return std::accumulate(v.begin(), v.end(), 0.0); };
+  const std::vector<double> worn = values_of(frames, [](const FrameRecord& f) { return f.pseudo_stereo_ms; });
+  metrics.push_back({"pseudo_stereo_time_percent", percent(total(worn), total(times))});
+  metrics.push_back({"lost_at_end", frames.back().lost ? 1.0 : 0.0});
   metrics.push_back({"lost_share", share([](const FrameRecord& f) { return f.lost; })});
   metrics.push_back({"frame_ms_median", quantile(times, 0.5)});
   metrics.push_back({"frame_ms_p99", quantile(times, 0.99)});

@@ -26,6 +26,8 @@ std::vector<FrameRecord> read_frame_log(const std::filesystem::path& path) {
     record.lost = table.has("tracking") && table.text(row, "tracking") == "lost";
     record.landmarks = number_or_zero(table, row, "landmarks");
     record.total_ms = number_or_zero(table, row, "total_ms");
+    record.pseudo_stereo_ms =
+        number_or_zero(table, row, "overlap_ms") + number_or_zero(table, row, "pseudo_stereo_ms");
     records.push_back(record);
   }
   return records;

@@ -15,11 +15,13 @@ struct FrameRecord {
   bool pseudo_stereo = false;  ///< the worn camera's view was fused or started a landmark
   bool lost = false;
   double landmarks = 0.0;
-  double total_ms = 0.0;  ///< wall time of the frame
+  double total_ms = 0.0;          ///< wall time of the frame
+  double pseudo_stereo_ms = 0.0;  ///< of it, what the worn camera cost: overlap prediction included
 };
 
-/// Reads frames.csv. Columns: stamp_ns, overlap, fused, initialised, landmarks, tracking, total_ms; one that
-/// is missing leaves its field as it is, but stamp_ns must be there. Throws EvaluationError.
+/// Reads frames.csv. Columns: stamp_ns, overlap, fused, initialised, landmarks, tracking, total_ms,
+/// overlap_ms, pseudo_stereo_ms; one that is missing leaves its field as it is, but stamp_ns must be there.
+/// Throws EvaluationError.
 std::vector<FrameRecord> read_frame_log(const std::filesystem::path& path);
 
 }  // namespace cosight

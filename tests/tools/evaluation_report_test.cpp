@@ -29,6 +29,17 @@ TEST(EvaluationReport, SaysNotAvailableWhereAMetricIsUndefined) {
   EXPECT_EQ(content_of(folder.path() / "m.json"), "{\n  \"ate_m\": 0.25,\n  \"tau\": null\n}\n");
 }
 
+TEST(EvaluationReport, IsReadBackAsItWasWritten) {
+  const ScratchFolder folder("report");
+  write_metrics_json(folder.path() / "m.json", {{"ate_m", 0.25}, {"tau", std::nullopt}});
+  const std::vector<Metric> metrics = read_metrics_json(folder.path() / "m.json");
+  ASSERT_EQ(metrics.size(), 2U);
+  EXPECT_EQ(metrics[0].name, "ate_m");
+  EXPECT_EQ(metrics[0].value, 0.25);
+  EXPECT_FALSE(metrics[1].value);
+  EXPECT_THROW(read_metrics_json(folder.path() / "none.json"), EvaluationError);
+}
+
 TEST(EvaluationReport, ThatCannotBeWrittenSaysSo) {
   EXPECT_THROW(write_metrics_json("/nowhere/m.json", {}), EvaluationError);
   EXPECT_THROW(write_errors_csv("/nowhere/e.csv", {}), EvaluationError);

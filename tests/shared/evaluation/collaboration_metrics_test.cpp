@@ -19,7 +19,7 @@ std::vector<FrameRecord> frames(const std::string& letters) {
   for (std::size_t i = 0; i < letters.size(); ++i) {
     FrameRecord record;
     record.stamp = static_cast<Stamp>(i) * kNanosecondsPerSecond;
-    record.overlap = letters[i] == 'o';
+    record.pseudo_stereo = letters[i] == 'o';
     records.push_back(record);
   }
   return records;
@@ -37,6 +37,15 @@ TEST(OverlapPeriods, FollowTheStampsNotTheFrames) {
   records[1].stamp = 5 * kNanosecondsPerSecond;
   records[2].stamp = 6 * kNanosecondsPerSecond;
   EXPECT_NEAR(overlap_ratio(overlap_periods(records)).value(), 5.0 / 7.0, 1e-9);
+}
+
+TEST(OverlapPeriods, GoOnThroughABlink) {
+  std::vector<FrameRecord> records = frames("o.oo..o");
+  for (std::size_t i = 0; i < records.size(); ++i)
+    records[i].stamp = static_cast<Stamp>(i) * kNanosecondsPerSecond / 7;
+  const OverlapPeriods periods = overlap_periods(records);
+  EXPECT_THAT(periods.overlaps, ElementsAre(DoubleNear(4.0 / 7, 1e-9), DoubleNear(1.0 / 7, 1e-9)));
+  EXPECT_THAT(periods.gaps, ElementsAre(DoubleNear(2.0 / 7, 1e-9)));
 }
 
 TEST(Tau, IsThePapersAsPrinted) {
