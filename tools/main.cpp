@@ -8,6 +8,7 @@
 #include "tools/prepare_command.hpp"
 #include "tools/record_command.hpp"
 #include "tools/recover_command.hpp"
+#include "tools/replay_command.hpp"
 #include "tools/summarise_command.hpp"
 
 namespace {
@@ -24,6 +25,7 @@ int run(int argc, char** argv) {
   cosight::add_summarise_command(program);
   cosight::add_aggregate_command(program);
   cosight::add_record_command(program);
+  cosight::add_replay_command(program);
   cosight::add_info_command(program);
   cosight::add_recover_command(program);
   try {

@@ -129,8 +129,8 @@ void run(RecordArguments arguments) {
 }
 
 void add_selection(CLI::App& command, RecorderOptions& recorder) {
-  command.add_option("--topics", recorder.allow, "only these, with wildcards: '/cosight/*/imu'");
-  command.add_option("--exclude", recorder.deny, "not these, with wildcards");
+  command.add_option("--topics", recorder.topics.allow, "only these, with wildcards: '/cosight/*/imu'");
+  command.add_option("--exclude", recorder.topics.deny, "not these, with wildcards");
 }
 
 void add_file_options(CLI::App& command, RecordArguments& arguments) {

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "shared/recording/message_store.hpp"
-#include "shared/recording/type_names.hpp"
 #include "shared/transport/blind_topic.hpp"
 
 namespace cosight::recording {
@@ -24,14 +23,9 @@ constexpr milliseconds kTellProgress{500};
 constexpr milliseconds kFlush{200};
 constexpr milliseconds kLongestWait{25};
 
-bool is_wanted(const BlindTopic& topic, const RecorderOptions& options) {
-  const auto is_one_of = [&](const std::vector<std::string>& patterns) {
-    return std::any_of(patterns.begin(), patterns.end(), [&](const std::string& pattern) {
-      return matches(ros_topic(topic.name), pattern) || matches(topic.name, pattern);
-    });
-  };
-  if (topic.name.starts_with("_fastdds_")) return false;
-  return (options.allow.empty() || is_one_of(options.allow)) && !is_one_of(options.deny);
+/// The middleware talks to itself too.
+bool is_internal(const BlindTopic& topic) {
+  return topic.name.starts_with("_fastdds_");
 }
 
 /// Readers that would be matched by the same writers are the same.
@@ -85,7 +79,7 @@ class Recorder::Impl {
 
   void look_for_topics() {
     for (const transport::DiscoveredWriter& writer : transport::discovered_writers(participant_)) {
-      if (!is_wanted(writer.topic, options_)) continue;
+      if (is_internal(writer.topic) || !options_.topics.wants(writer.topic.name)) continue;
       const auto known = std::find_if(readers_.begin(), readers_.end(), [&](const Reader& reader) {
         return is_same(reader.topic, writer.topic);
       });

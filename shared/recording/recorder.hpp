@@ -10,14 +10,14 @@
 #include "shared/recording/loss_ledger.hpp"
 #include "shared/recording/message_schemas.hpp"
 #include "shared/recording/recording_files.hpp"
+#include "shared/recording/topic_selection.hpp"
 #include "shared/transport/participant.hpp"
 
 namespace cosight::recording {
 
 struct RecorderOptions {
-  std::filesystem::path path;      ///< "trial.mcap"
-  std::vector<std::string> allow;  ///< topics with wildcards, ROS 2's or DDS's names; empty: all
-  std::vector<std::string> deny;   ///< stronger than allow
+  std::filesystem::path path;  ///< "trial.mcap"
+  TopicSelection topics;
   SplitOptions split;
   WriterOptions writer;
   double ring_seconds = 0.0;  ///< keep only so much, in memory, until it is asked for; 0: write it all

@@ -107,8 +107,8 @@ TEST_F(Recording, LeavesOutWhatIsDeniedOrNotAllowed) {
   const BlindWriter b(agent, {"rt/a/y", "T", false, {}}, 1);
   BlindWriter c(agent, {"rt/b/x", "T", false, {}}, 1);
   RecorderOptions options = recording_at("t.mcap");
-  options.allow = {"*/x"};
-  options.deny = {"/a/*"};
+  options.topics.allow = {"*/x"};
+  options.topics.deny = {"/a/*"};
   RunningRecorder running(recorder, options);
   ASSERT_TRUE(transport::eventually([&] { return c.readers() == 1; }));
   usleep(100'000);
