@@ -99,12 +99,15 @@ void ConsistencyRun::measure(const Sightings& seen, StepResult& result) {
   for (const FeatureWorld::Seen& s : seen) {
     const auto known = map_.find(s.point);
     if (known == map_.end()) continue;
-    const auto point = has_depth(s) ? measure_point({s.pixel_S, *s.pixel_F}, rig_) : std::nullopt;
+    const bool as_point = options_.wearer_form == WearerForm::kPoint && has_depth(s);
+    const auto point = as_point ? measure_point({s.pixel_S, *s.pixel_F}, rig_) : std::nullopt;
     measurements.push_back(point
                                ? Measurement::point(known->second, *point)
                                : Measurement::pixel(known->second, s.pixel_S, filter_.options().pixel_sigma));
+    if (options_.wearer_form == WearerForm::kPixel && s.pixel_F)
+      measurements.push_back(Measurement::wearer_pixel(known->second, *s.pixel_F, rig_.sigma_pixel_F));
   }
-  const ekf::UpdateReport& report = filter_.update(measurements);
+  const ekf::UpdateReport& report = filter_.update(measurements, &rig_);
   result.joint = {report.nis, static_cast<double>(report.rows)};
   for (const ekf::MeasurementReport& m : report.measurements) {
     if (m.outcome != ekf::Outcome::kFused) continue;

@@ -11,15 +11,22 @@ namespace cosight::experiments {
 /// From which pose a landmark without the wearer's depth is started (equations section 4).
 enum class FirstPose { kCloned, kIndependent };
 
+/// As what a match in the free camera is measured.
+enum class WearerForm {
+  kPoint,  ///< both pixels triangulated, C5
+  kPixel,  ///< a pixel of each camera
+};
+
 struct RunOptions {
   FeatureWorldOptions world;
   ekf::FilterOptions filter;      ///< noises are the world's; every gate is off: association is known
   double claimed_variance = 1.0;  ///< the filter is told so many times the true variance of each measurement
   int map_size = 20;
   int steps = 100;
-  int glance_period = 50;         ///< [steps] the wearer looks at the start of each period …
-  int glance_steps = 20;          ///< … for so long; all the time when it is the period
-  int last_glance = 1'000'000;    ///< [step] from here on the wearer is away: mono
+  int glance_period = 50;       ///< [steps] the wearer looks at the start of each period …
+  int glance_steps = 20;        ///< … for so long; all the time when it is the period
+  int last_glance = 1'000'000;  ///< [step] from here on the wearer is away: mono
+  WearerForm wearer_form = WearerForm::kPixel;
   bool correlated_starts = true;  ///< landmarks of one frame share the error of T_SF
   bool delayed_starts = true;     ///< new landmarks from Cs alone as well
   FirstPose first_pose = FirstPose::kCloned;

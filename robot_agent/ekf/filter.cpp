@@ -19,7 +19,7 @@ int state_capacity(const FilterOptions& options) {
 }
 
 int row_capacity(const FilterOptions& options) {
-  return std::max(1, 3 * options.max_landmarks);
+  return std::max(1, 4 * options.max_landmarks);
 }
 
 /// d [dp, dtheta (axes of W)] / d [r, q]: the inverse of position_quaternion_jacobian on the tangent space.

@@ -148,10 +148,12 @@ class Filter {
 
   // --- measurements ---------------------------------------------------------------------------------------
   /// Innovation of the given measurements at the present estimate; those without a prediction are left out.
-  /// For joint compatibility. Valid until the next call on the filter that is not const.
-  const JointInnovation& innovation(std::span<const Measurement> measurements);
+  /// For joint compatibility. Valid until the next call on the filter that is not const. `wearer` is what is
+  /// known of the free camera in this frame; without it its pixels have no prediction.
+  const JointInnovation& innovation(std::span<const Measurement> measurements,
+                                    const StereoRig* wearer = nullptr);
   /// Fuses all measurements that pass their own gate. The report is valid until the next update.
-  const UpdateReport& update(std::span<const Measurement> measurements);
+  const UpdateReport& update(std::span<const Measurement> measurements, const StereoRig* wearer = nullptr);
 
   // --- for evaluation -------------------------------------------------------------------------------------
   const GaussianState& state() const { return state_; }
@@ -174,8 +176,15 @@ class Filter {
                              const Eigen::Ref<const Eigen::MatrixXd>& noise);
   UncertainPose pose_at(int offset) const;
 
+  /// The free camera in the present frame; `factor` times a standard normal is the error of T_SF.
+  struct Wearer {
+    WearerObservation model;
+    Eigen::Matrix<double, 6, 6> factor;
+  };
+
   bool linearise(const Measurement& measurement, LinearisedMeasurement& out) const;
-  void collect(std::span<const Measurement> measurements);
+  bool linearise_wearer_pixel(const Measurement& measurement, LinearisedMeasurement& out) const;
+  void collect(std::span<const Measurement> measurements, const StereoRig* wearer);
   void report_and_gate(std::span<const Measurement> measurements);
   bool relinearise(std::span<const Measurement> measurements);
   bool iterate(std::span<const Measurement> measurements);
@@ -188,6 +197,7 @@ class Filter {
   std::vector<Block> clones_;
   std::uint64_t next_id_ = 1;
 
+  std::optional<Wearer> wearer_;  ///< of the last call that gave one
   JointInnovation innovation_;
   CovarianceUpdate covariance_update_;
   ChiSquaredLimits gates_;

@@ -104,15 +104,38 @@ bool Filter::linearise(const Measurement& measurement, LinearisedMeasurement& ou
   out.dim = block->dim;
   out.R = measurement.R;
   out.shared_factor = measurement.shared_factor;
+  out.shares_error = measurement.kind != MeasurementKind::kPixel;
   if (measurement.kind == MeasurementKind::kPixel) {
     return linearise_with(BearingObservation{camera_model_}, state_, measurement, out);
   }
+  if (measurement.kind == MeasurementKind::kWearerPixel) return linearise_wearer_pixel(measurement, out);
   if (!linearise_with(EuclideanObservation{options_.min_inverse_depth}, state_, measurement, out))
     return false;
   return options_.point_form == PointForm::kEuclidean || to_inverse_distance(measurement, out);
 }
 
-void Filter::collect(std::span<const Measurement> measurements) {
+/// The noise of T_SF enters at the predicted point: at the measured one it would depend on the measurement's
+/// own error, and what looks too near would count more.
+bool Filter::linearise_wearer_pixel(const Measurement& measurement, LinearisedMeasurement& out) const {
+  if (!wearer_) return false;
+  Eigen::Matrix<double, 2, 6> H_wearer;
+  const auto h = observe(wearer_->model, state_, out.offset, out.dim, [&](const auto& H) {
+    out.H_camera.topRows<2>() = H.H_camera;
+    out.H_landmark.topLeftCorner(2, H.H_landmark.cols()) = H.H_landmark;
+    H_wearer = H.H_wearer;
+  });
+  if (!h) return false;
+  out.rows = 2;
+  out.innovation.head<2>() = measurement.z.head<2>() - *h;
+  out.shared_factor.topRows<2>() = H_wearer * wearer_->factor;
+  out.R.topLeftCorner<2, 2>() += out.shared_factor.topRows<2>() * out.shared_factor.topRows<2>().transpose();
+  return out.innovation.head<2>().allFinite();
+}
+
+void Filter::collect(std::span<const Measurement> measurements, const StereoRig* wearer) {
+  wearer_.reset();
+  if (wearer != nullptr)
+    wearer_ = Wearer{{wearer->camera_F, wearer->T_SF.T}, covariance_factor(wearer->T_SF.covariance)};
   innovation_.clear();
   LinearisedMeasurement linearised;
   for (std::size_t i = 0; i < measurements.size(); ++i) {
@@ -122,8 +145,9 @@ void Filter::collect(std::span<const Measurement> measurements) {
   innovation_.compute(state_, options_.correlated_wearer_pose);
 }
 
-const JointInnovation& Filter::innovation(std::span<const Measurement> measurements) {
-  collect(measurements);
+const JointInnovation& Filter::innovation(std::span<const Measurement> measurements,
+                                          const StereoRig* wearer) {
+  collect(measurements, wearer);
   return innovation_;
 }
 
@@ -151,12 +175,12 @@ void Filter::report_and_gate(std::span<const Measurement> measurements) {
   innovation_.keep_only(keep_);
 }
 
-const UpdateReport& Filter::update(std::span<const Measurement> measurements) {
+const UpdateReport& Filter::update(std::span<const Measurement> measurements, const StereoRig* wearer) {
   report_.fused = 0;
   report_.rows = 0;
   report_.nis = 0.0;
   report_.iterations = 0;
-  collect(measurements);
+  collect(measurements, wearer);
   report_and_gate(measurements);
   if (innovation_.rows() == 0) return report_;
   if (!iterate(measurements)) {

@@ -62,7 +62,8 @@ void JointCompatibility::invert() {
   A_.selfadjointView<Eigen::Lower>().rankUpdate(L_inverse_.transpose());
   A_.triangularView<Eigen::StrictlyUpper>() = A_.transpose();
   u_.resize(whitened_.size());
-  for (Eigen::Index i = 0; i < u_.size(); ++i) u_(i) = L_inverse_.col(i).dot(whitened_);
+  for (Eigen::Index i = 0; i < u_.size(); ++i)
+    u_(i) = L_inverse_.col(i).dot(whitened_);
 }
 
 template <int Block>

@@ -113,12 +113,18 @@ void JointInnovation::compute(const GaussianState& state, bool correlated) {
     block.topLeftCorner(m.rows, m.rows) = S_ii;
     m.nis = normalised_innovation_squared(block, m.innovation, m.rows);
   }
-  if (!correlated) return;
+  if (correlated) add_shared_errors();
+}
+
+/// B_a B_b^T of every pair that shares the error of T_SF, below the diagonal.
+void JointInnovation::add_shared_errors() {
   for (const LinearisedMeasurement& a : measurements_) {
-    if (a.rows != 3) continue;
+    if (!a.shares_error) continue;
     for (const LinearisedMeasurement& b : measurements_) {
       if (b.row >= a.row) break;
-      if (b.rows == 3) S_.block<3, 3>(a.row, b.row) += a.shared_factor * b.shared_factor.transpose();
+      if (!b.shares_error) continue;
+      const Eigen::Matrix3d shared = a.shared_factor * b.shared_factor.transpose();
+      S_.block(a.row, b.row, a.rows, b.rows) += shared.topLeftCorner(a.rows, b.rows);
     }
   }
 }

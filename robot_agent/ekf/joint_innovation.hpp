@@ -14,13 +14,14 @@ namespace cosight::ekf {
 struct LinearisedMeasurement {
   int measurement = 0;  ///< index in the caller's list
   int row = 0;          ///< first row in g and S
-  int rows = 2;         ///< 2 pixel, 3 point
+  int rows = 2;         ///< 2 a pixel of either camera, 3 point
   int offset = 0;       ///< of the landmark's block in x
   int dim = 6;          ///< of the landmark's block: 6 inverse depth, 3 Euclidean
   Eigen::Vector3d innovation = Eigen::Vector3d::Zero();  ///< z - h(x), first `rows` entries
   Eigen::Matrix<double, 3, CameraState::kPoseDim> H_camera;
   Eigen::Matrix<double, 3, InverseDepthPoint::kDim> H_landmark;  ///< first `dim` columns
   Eigen::Matrix3d R = Eigen::Matrix3d::Zero();
+  bool shares_error = false;  ///< of T_SF, by shared_factor
   Eigen::Matrix<double, 3, 6> shared_factor = Eigen::Matrix<double, 3, 6>::Zero();
   double nis = 0.0;  ///< g_i^T S_ii^-1 g_i; not finite when S_ii cannot be inverted
 };
@@ -51,6 +52,7 @@ class JointInnovation {
  private:
   void add_row_products(const GaussianState& state, const LinearisedMeasurement& measurement);
   void add_innovation_covariance(const LinearisedMeasurement& measurement);
+  void add_shared_errors();
 
   std::vector<LinearisedMeasurement> measurements_;
   int rows_ = 0;

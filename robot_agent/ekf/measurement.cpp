@@ -20,6 +20,12 @@ Measurement Measurement::point(LandmarkId landmark, const PointMeasurement& meas
   return m;
 }
 
+Measurement Measurement::wearer_pixel(LandmarkId landmark, const Eigen::Vector2d& z, double sigma) {
+  Measurement m = pixel(landmark, z, sigma);
+  m.kind = MeasurementKind::kWearerPixel;
+  return m;
+}
+
 const char* to_string(Outcome outcome) {
   switch (outcome) {
     case Outcome::kFused:

@@ -11,10 +11,10 @@ namespace cosight::ekf {
 /// Stays the same from a landmark's start to its removal, and is never used again.
 using LandmarkId = std::uint64_t;
 
-enum class MeasurementKind { kPixel, kPoint };
+enum class MeasurementKind { kPixel, kPoint, kWearerPixel };
 
-/// A landmark seen in one frame: as a pixel of the SLAM camera (2 rows, C6) or, when the free camera saw it
-/// as well, as a point (3 rows, C5). The point holds the pixel already: give one or the other.
+/// A landmark seen in one frame: as a pixel of the SLAM camera (2 rows, C6) and, when the free camera saw it
+/// as well, as a pixel of that (2 rows); or, the paper's way, both pixels together as a point (3 rows, C5).
 struct Measurement {
   LandmarkId landmark = 0;
   MeasurementKind kind = MeasurementKind::kPixel;
@@ -25,13 +25,16 @@ struct Measurement {
 
   static Measurement pixel(LandmarkId landmark, const Eigen::Vector2d& z, double sigma);
   static Measurement point(LandmarkId landmark, const PointMeasurement& measured);
+  /// Needs the wearer's pose in the update. `sigma` is the pixel's own noise; that of T_SF comes on top, at
+  /// the predicted point.
+  static Measurement wearer_pixel(LandmarkId landmark, const Eigen::Vector2d& z, double sigma);
 
-  int rows() const { return kind == MeasurementKind::kPixel ? 2 : 3; }
+  int rows() const { return kind == MeasurementKind::kPoint ? 3 : 2; }
 };
 
 enum class Outcome {
   kFused,
-  kUnpredictable,   ///< no such landmark, behind the camera, outside the lens model, or at infinity (points)
+  kUnpredictable,   ///< no such landmark or wearer, behind the camera, outside the lens, at infinity (points)
   kGated,           ///< outside its own gate
   kIncompatible,    ///< taken out by the joint compatibility test
   kIllConditioned,  ///< the joint innovation covariance could not be inverted: nothing was fused

@@ -46,6 +46,54 @@ std::optional<Eigen::Vector2d> BearingObservation::predict(const CameraState& x,
   return pixel;
 }
 
+/// A point of W relative to the camera, and its scale: rho, or 1 in metres.
+struct WearerObservation::Scaled {
+  Eigen::Vector3d h_W;
+  double scale = 1.0;
+};
+
+/// Pixel and what both kinds of landmark have in common; `J_S` is d pixel / d h_S.
+template <class AnyJacobians>
+std::optional<Eigen::Vector2d> WearerObservation::project(const CameraState& x, const Scaled& point,
+                                                          AnyJacobians* jacobians,
+                                                          Eigen::Matrix<double, kDim, 3>& J_S) const {
+  const Eigen::Matrix3d R_SW = x.q_WS.toRotationMatrix().transpose();
+  const Eigen::Matrix3d R_FS = T_SF.q.toRotationMatrix().transpose();
+  const Eigen::Vector3d from_F_S = R_SW * point.h_W - point.scale * T_SF.p;
+  Eigen::Matrix<double, 2, 3> J_pixel;
+  auto pixel = camera_F.project(R_FS * from_F_S, jacobians != nullptr ? &J_pixel : nullptr);
+  if (!pixel || jacobians == nullptr) return pixel;
+  J_S = J_pixel * R_FS;
+  jacobians->H_camera.template middleCols<3>(kR) = -point.scale * J_S * R_SW;
+  jacobians->H_camera.template middleCols<4>(kQ) = J_S * inverse_rotated_point_jacobian(x.q_WS, point.h_W);
+  jacobians->H_wearer << -point.scale * J_S, J_S * skew(from_F_S);
+  return pixel;
+}
+
+std::optional<Eigen::Vector2d> WearerObservation::predict(const CameraState& x, const InverseDepthPoint& y,
+                                                          Jacobians* jacobians) const {
+  Eigen::Matrix<double, 3, 2> m_angles;
+  const Eigen::Vector3d m = y.ray_W(&m_angles);
+  const Eigen::Vector3d offset_W = y.anchor_W - x.r_WS;
+  Eigen::Matrix<double, kDim, 3> J_S;
+  const auto pixel = project(x, {y.rho * offset_W + m, y.rho}, jacobians, J_S);
+  if (pixel && jacobians != nullptr) {
+    const Eigen::Matrix3d R_SW = x.q_WS.toRotationMatrix().transpose();
+    jacobians->H_landmark.leftCols<3>() = -jacobians->H_camera.middleCols<3>(kR);
+    jacobians->H_landmark.middleCols<2>(InverseDepthPoint::kTheta) = J_S * R_SW * m_angles;
+    jacobians->H_landmark.col(InverseDepthPoint::kRho) = J_S * (R_SW * offset_W - T_SF.p);
+  }
+  return pixel;
+}
+
+std::optional<Eigen::Vector2d> WearerObservation::predict(const CameraState& x, const Eigen::Vector3d& p_W,
+                                                          PointJacobians* jacobians) const {
+  Eigen::Matrix<double, kDim, 3> J_S;
+  const auto pixel = project(x, {p_W - x.r_WS, 1.0}, jacobians, J_S);
+  if (pixel && jacobians != nullptr) jacobians->H_landmark = -jacobians->H_camera.middleCols<3>(kR);
+  return pixel;
+}
+
 std::optional<Eigen::Vector3d> EuclideanObservation::predict(const CameraState& x, const InverseDepthPoint& y,
                                                              Jacobians* jacobians) const {
   if (!(y.rho > min_inverse_depth)) return std::nullopt;

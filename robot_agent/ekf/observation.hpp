@@ -6,6 +6,7 @@
 #include "robot_agent/ekf/camera_state.hpp"
 #include "robot_agent/ekf/inverse_depth_point.hpp"
 #include "shared/geometry/camera_model.hpp"
+#include "shared/geometry/pose.hpp"
 
 namespace cosight::ekf {
 
@@ -35,6 +36,37 @@ struct BearingObservation {
   /// The same of a landmark kept as a point of W: h_c = R_WS^T (p_W - r_WS).
   std::optional<Eigen::Vector2d> predict(const CameraState& x, const Eigen::Vector3d& p_W,
                                          PointJacobians* jacobians = nullptr) const;
+};
+
+/// The landmark as a pixel of the free camera, whose pose in S is known but for an error [dp, dtheta] in the
+/// axes of S (UncertainPose):
+///
+///   h_F = R_SF^T ( h_c - rho t_SF ),   then pinhole and lens.                                    [px]
+///
+/// Scaled by rho as the bearing is. Nearly linear in depth and in the error of T_SF, which the triangulated
+/// point is not. Nothing when the point is behind that camera or outside its lens model.
+struct WearerObservation {
+  static constexpr int kDim = 2;
+  struct Jacobians : ObservationJacobians<kDim, InverseDepthPoint::kDim> {
+    Eigen::Matrix<double, kDim, 6> H_wearer;  ///< by [dp, dtheta] of T_SF
+  };
+  struct PointJacobians : ObservationJacobians<kDim, 3> {
+    Eigen::Matrix<double, kDim, 6> H_wearer;
+  };
+
+  CameraModel camera_F;
+  Pose T_SF;
+
+  std::optional<Eigen::Vector2d> predict(const CameraState& x, const InverseDepthPoint& y,
+                                         Jacobians* jacobians = nullptr) const;
+  std::optional<Eigen::Vector2d> predict(const CameraState& x, const Eigen::Vector3d& p_W,
+                                         PointJacobians* jacobians = nullptr) const;
+
+ private:
+  struct Scaled;
+  template <class AnyJacobians>
+  std::optional<Eigen::Vector2d> project(const CameraState& x, const Scaled& point, AnyJacobians* jacobians,
+                                         Eigen::Matrix<double, kDim, 3>& J_S) const;
 };
 
 /// The landmark as a point in the SLAM camera (C5):

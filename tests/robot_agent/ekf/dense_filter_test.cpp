@@ -219,6 +219,49 @@ TEST_P(SideBySide, UpdatesOfPixelsAndPointsAgree) {
   expect_same(1e-4);
 }
 
+/// Both pixels of three landmarks, those of the free camera with the error of T_SF that they share.
+TEST_P(SideBySide, UpdatesOfTheWearersPixelsAgree) {
+  for (int i = 0; i < 3; ++i)
+    add_both_ways(new_match());
+  const bool has_point = GetParam() % 2 == 0 && filter.convert_to_point(ids[1]);
+  if (has_point) {
+    dense.x = filter.state().x();
+    dense.P = whole(filter.state());
+  }
+  const auto point_S = [&](const VectorXd& x, std::size_t i) -> Vector3d {
+    const int offset = filter.landmark_offset(ids[i]);
+    if (i != 1 || !has_point) return point_of(x, offset);
+    const CameraState c = camera_of(x);
+    return c.q_WS.toRotationMatrix().transpose() * (x.segment<3>(offset) - c.r_WS);
+  };
+  const auto pixels = [&](const VectorXd& x, const VectorXd& xi) {
+    const Pose T_SF{quaternion_exp(xi.tail<3>()) * rig.T_SF.T.q, rig.T_SF.T.p + xi.head<3>()};
+    VectorXd v(12);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vector3d p_S = point_S(x, i);
+      const auto row = static_cast<Eigen::Index>(4 * i);
+      v.segment<4>(row) << *camera.project(p_S), *rig.camera_F.project(T_SF.inverse() * p_S);
+    }
+    return v;
+  };
+  const VectorXd none = VectorXd::Zero(6);
+  const MatrixXd B = numeric_jacobian([&](const VectorXd& xi) { return pixels(dense.x, xi); }, none);
+  MatrixXd R = B * rig.T_SF.covariance * B.transpose();
+  R.diagonal() += VectorXd::Constant(12, 0.64);
+  const VectorXd z = pixels(dense.x, none) + 0.7 * scene.normals(12);
+  std::vector<Measurement> measurements;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto row = static_cast<Eigen::Index>(4 * i);
+    measurements.push_back(Measurement::pixel(ids[i], z.segment<2>(row), 0.8));
+    measurements.push_back(Measurement::wearer_pixel(ids[i], z.segment<2>(row + 2), 0.8));
+  }
+  EXPECT_EQ(filter.update(measurements, &rig).fused, 6);
+  dense.update([&](const VectorXd& x) { return pixels(x, none); }, z, R);
+  expect_same(1e-4);
+  EXPECT_EQ(filter.update(std::span(measurements).subspan(1, 1)).measurements[0].outcome,
+            Outcome::kUnpredictable);
+}
+
 TEST_P(SideBySide, DelayedStartFromACloneAgrees) {
   add_both_ways(new_match());
   const auto clone = filter.clone_camera_pose();

@@ -175,6 +175,44 @@ struct StereoScene {
   StereoMatch match;
 };
 
+TEST_P(Jacobians, OfTheWearersPixelMatchCentralDifferences) {
+  const CameraState x = scene.camera_state();
+  const StereoScene stereo(scene, scene.uniform(1.0, 10.0));
+  const WearerObservation model{stereo.camera_F, stereo.T_SF};
+  const auto with_error = [&](const VectorXd& xi) {
+    return WearerObservation{stereo.camera_F,
+                             {quaternion_exp(xi.tail<3>()) * stereo.T_SF.q, stereo.T_SF.p + xi.head<3>()}};
+  };
+  const Vector3d ray_S = *stereo.camera_S.unproject(stereo.match.pixel_S);
+  const auto angles = angles_of_ray(x.q_WS * ray_S);
+  for (const double rho : {1.0 / scene.uniform(2.0, 20.0), 1e-9, 0.0, -0.01}) {
+    const InverseDepthPoint y{x.r_WS + 0.01 * Vector3d(scene.normals(3)), angles->theta, angles->phi, rho};
+    WearerObservation::Jacobians H;
+    if (!model.predict(x, y, &H)) continue;
+    const auto by_camera = [&](const VectorXd& p) -> VectorXd {
+      return *model.predict(camera_with_pose(p), y);
+    };
+    const auto by_landmark = [&](const VectorXd& v) -> VectorXd {
+      return *model.predict(x, InverseDepthPoint::from_vector(v));
+    };
+    const auto by_wearer = [&](const VectorXd& xi) -> VectorXd { return *with_error(xi).predict(x, y); };
+    EXPECT_THAT(H.H_camera, IsNearMatrix(numeric_jacobian(by_camera, x.vector().head<7>()), kTolerance));
+    EXPECT_THAT(H.H_landmark, IsNearMatrix(numeric_jacobian(by_landmark, y.vector()), kTolerance));
+    EXPECT_THAT(H.H_wearer, IsNearMatrix(numeric_jacobian(by_wearer, VectorXd::Zero(6)), kTolerance));
+  }
+  const Vector3d p_W = x.T_WS() * (8.0 * ray_S);
+  WearerObservation::PointJacobians H;
+  if (!model.predict(x, p_W, &H)) return;
+  const auto by_camera = [&](const VectorXd& p) -> VectorXd {
+    return *model.predict(camera_with_pose(p), p_W);
+  };
+  const auto by_point = [&](const VectorXd& p) -> VectorXd { return *model.predict(x, Vector3d(p)); };
+  const auto by_wearer = [&](const VectorXd& xi) -> VectorXd { return *with_error(xi).predict(x, p_W); };
+  EXPECT_THAT(H.H_camera, IsNearMatrix(numeric_jacobian(by_camera, x.vector().head<7>()), kTolerance));
+  EXPECT_THAT(H.H_landmark, IsNearMatrix(numeric_jacobian(by_point, p_W), kTolerance));
+  EXPECT_THAT(H.H_wearer, IsNearMatrix(numeric_jacobian(by_wearer, VectorXd::Zero(6)), kTolerance));
+}
+
 TEST_P(Jacobians, OfTriangulationByAllElevenInputsMatchCentralDifferences) {
   for (const double depth : {scene.uniform(1.0, 3.0), scene.uniform(5.0, 15.0)}) {
     const StereoScene stereo(scene, depth);
