@@ -6,6 +6,8 @@ const char* to_string(PseudoStereoOutcome outcome) {
   switch (outcome) {
     case PseudoStereoOutcome::kMatched:
       return "matched";
+    case PseudoStereoOutcome::kNotDue:
+      return "not_due";
     case PseudoStereoOutcome::kNoWearerImage:
       return "no_wearer_image";
     case PseudoStereoOutcome::kNoWearerPose:

@@ -12,6 +12,7 @@ namespace cosight {
 /// Why a frame with a worn image gave no pseudo-stereo match, or the last stage at which any was left.
 enum class PseudoStereoOutcome {
   kMatched,             ///< at least one was fused or started a landmark
+  kNotDue,              ///< the last worn frame was used a moment ago
   kNoWearerImage,       ///< no worn frame near enough in time
   kNoWearerPose,        ///< no pose of Cf in Cs, or one without any orientation
   kNoOverlap,           ///< the two fields of view do not intersect

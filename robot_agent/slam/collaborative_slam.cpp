@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
-#include "robot_agent/slam/rig_refinement.hpp"
 #include "robot_agent/slam/stopwatch.hpp"
 #include "robot_agent/slam/wearer_silhouette.hpp"
 #include "robot_agent/vision/patch_warp.hpp"
@@ -55,12 +53,6 @@ double usual_depth(const std::vector<ekf::PixelPrediction>& predictions) {
   return *middle;
 }
 
-/// An orientation of Cf that leaves wide bands to search.
-bool has_wide_bands(const UncertainPose& T_SF) {
-  constexpr double kWide = 0.4 * std::numbers::pi / 180.0;
-  return T_SF.covariance.bottomRightCorner<3, 3>().trace() > 3.0 * kWide * kWide;
-}
-
 /// Half of the nearest landmark's depth [m], 0 without any: a band that goes on to the lens would cost ten
 /// times as much, for points that the next frames see anyway.
 double expected_near(const std::vector<ekf::PixelPrediction>& predictions) {
@@ -82,8 +74,8 @@ CollaborativeSlam::CollaborativeSlam(const CameraModel& camera_S, const SlamOpti
       compatibility_({options.search.gate_probability, 3}),
       search_(options.search),
       candidates_(options.candidates, options.search.pixel_sigma),
-      pseudo_stereo_(options.pseudo_stereo, options.search.pixel_sigma),
-      new_points_(options.pseudo_stereo, options.map.min_distance_px),
+      wearer_matcher_(options.pseudo_stereo, options.search.pixel_sigma, options.map.min_distance_px,
+                      options.seed),
       maintenance_(options.map),
       motion_prior_(options.seed),
       corners_(corner_options(options.map)) {
@@ -109,9 +101,13 @@ FrameEstimate CollaborativeSlam::process(const FrameBundle& bundle) {
   auto view = wearer_view(bundle, sightings, estimate);  // overlap
   watch.lap(estimate.timings.overlap);
 
-  PseudoStereo::Matches matches;
-  if (view) matches = match_in_wearer(*view, *bundle.image, sightings, estimate.pseudo_stereo);
-  const auto measurements = pseudo_stereo_.measure(view, sightings, matches, estimate.pseudo_stereo);
+  WornMatches matches;  // pseudo-stereo
+  if (view) {
+    view_stamp_ = bundle.stamp;
+    matches = wearer_matcher_.match(*view, *bundle.image, sightings, filter_, tracks_,
+                                    tracking_ == Tracking::kWaitingForScale, estimate.pseudo_stereo);
+  }
+  const auto measurements = wearer_matcher_.measure(view, sightings, matches, estimate.pseudo_stereo);
   watch.lap(estimate.timings.pseudo_stereo);
 
   const auto accepted = validate(measurements, estimate);
@@ -121,7 +117,7 @@ FrameEstimate CollaborativeSlam::process(const FrameBundle& bundle) {
   note_fused(sightings, report, estimate);
   watch.lap(estimate.timings.update);
 
-  if (bundle.image) renew_map(*bundle.image, view, estimate, watch);
+  if (bundle.image) renew_map(*bundle.image, view, matches, estimate, watch);
   describe(estimate);
   estimate.timings.total = watch.total();
   return estimate;
@@ -168,12 +164,19 @@ bool CollaborativeSlam::may_use_wearer(Stamp stamp) const {
   return to_seconds(stamp - *scale_stamp_) < options_.start.overlap_s;
 }
 
+bool CollaborativeSlam::is_wearer_due(Stamp stamp) const {
+  if (tracking_ == Tracking::kWaitingForScale || !view_stamp_) return true;
+  return to_seconds(stamp - *view_stamp_) >= options_.pseudo_stereo.interval_s;
+}
+
 std::optional<StereoView> CollaborativeSlam::wearer_view(const FrameBundle& bundle,
                                                          const std::vector<Sighting>& sightings,
                                                          FrameEstimate& estimate) const {
   estimate.pseudo_stereo_outcome =
       bundle.wearer_pose_missing ? PseudoStereoOutcome::kNoWearerPose : PseudoStereoOutcome::kNoWearerImage;
   if (!bundle.image || !bundle.wearer || !may_use_wearer(bundle.stamp)) return std::nullopt;
+  estimate.pseudo_stereo_outcome = PseudoStereoOutcome::kNotDue;
+  if (!is_wearer_due(bundle.stamp)) return std::nullopt;
   // An orientation from the AHRS is one in W: it needs the robot's own, better than the motion model knows
   // it.
   const auto T_WS = bundle.wearer->has_orientation
@@ -195,38 +198,6 @@ std::optional<StereoView> CollaborativeSlam::wearer_view(const FrameBundle& bund
   view.up_S = filter_.camera().q_WS.conjugate() * Eigen::Vector3d::UnitZ();
   view.silhouette = silhouette_;
   return view;
-}
-
-/// The known landmarks in Cf, and with them, or with new corners where they are few, a better pose of Cf.
-PseudoStereo::Matches CollaborativeSlam::match_in_wearer(StereoView& view, const GrayImage& image,
-                                                         const std::vector<Sighting>& sightings,
-                                                         PseudoStereoCounts& counts) {
-  auto matches = pseudo_stereo_.match(view, image, sightings, filter_, tracks_, counts);
-  if (!options_.pseudo_stereo.refine_wearer_pose) return matches;
-  std::vector<ekf::StereoMatch> evidence;
-  for (const auto& match : matches) {
-    if (match) evidence.push_back(*match);
-  }
-  const int missing = options_.pseudo_stereo.min_refining_matches - static_cast<int>(evidence.size());
-  if (missing > 0 && has_wide_bands(view.rig.T_SF)) {
-    constexpr int kTriesPerMatch = 8;
-    const int tries = tracking_ == Tracking::kWaitingForScale ? kTriesPerMatch * missing
-                                                              : 2 * options_.pseudo_stereo.max_new_tries;
-    const auto guesses = new_points_.guesses(view, image, tries);
-    evidence.insert(evidence.end(), guesses.begin(), guesses.end());
-  }
-  RigRefinementOptions refinement;
-  refinement.seed = options_.seed;
-  const auto refined = refine_rig(view.rig, evidence, refinement);
-  if (!refined) return matches;
-  view.rig.T_SF = refined->T_SF;
-  auto is_inlier = refined->is_inlier.begin();
-  for (auto& match : matches) {
-    if (!match || *is_inlier++ != 0) continue;
-    match.reset();
-    ++counts.epipolar;
-  }
-  return matches;
 }
 
 std::vector<ekf::Measurement> CollaborativeSlam::validate(const std::vector<ekf::Measurement>& measurements,
@@ -290,9 +261,9 @@ void CollaborativeSlam::note_fused(const std::vector<Sighting>& sightings, const
 }
 
 void CollaborativeSlam::renew_map(const GrayImage& image, const std::optional<StereoView>& view,
-                                  FrameEstimate& estimate, Stopwatch& watch) {
+                                  const WornMatches& matches, FrameEstimate& estimate, Stopwatch& watch) {
   if (tracking_ == Tracking::kWaitingForScale) {
-    begin(image, view, estimate);
+    begin(image, view, matches, estimate);
     watch.lap(estimate.timings.pseudo_stereo);
     return;
   }
@@ -302,7 +273,7 @@ void CollaborativeSlam::renew_map(const GrayImage& image, const std::optional<St
   if (view) {
     const int places = maintenance_.make_room(filter_, tracks_, options_.pseudo_stereo.max_new_landmarks);
     estimate.landmarks_added += add_pseudo_stereo(
-        image, *view, {places, options_.pseudo_stereo.max_new_tries}, estimate.pseudo_stereo);
+        image, *view, matches, {places, options_.pseudo_stereo.max_new_tries}, estimate.pseudo_stereo);
   }
   watch.lap(estimate.timings.pseudo_stereo);
   candidates_.track(tracker_, filter_, usual_depth(search_.predict(filter_, tracks_)), silhouette_);
@@ -316,13 +287,13 @@ void CollaborativeSlam::renew_map(const GrayImage& image, const std::optional<St
 }
 
 void CollaborativeSlam::begin(const GrayImage& image, const std::optional<StereoView>& view,
-                              FrameEstimate& estimate) {
+                              const WornMatches& matches, FrameEstimate& estimate) {
   if (!known_points_.empty() && start_from_known_points(known_points_, image, options_, filter_, tracks_)) {
     tracking_ = Tracking::kTracking;
   } else if (view) {
-    estimate.landmarks_added =
-        add_pseudo_stereo(image, *view, {options_.start.first_landmarks, 2 * options_.start.first_landmarks},
-                          estimate.pseudo_stereo);
+    estimate.landmarks_added = add_pseudo_stereo(
+        image, *view, matches, {options_.start.first_landmarks, 2 * options_.start.first_landmarks},
+        estimate.pseudo_stereo);
     if (filter_.landmark_count() >= options_.start.min_landmarks) {
       tracking_ = Tracking::kTracking;
     } else {
@@ -351,8 +322,10 @@ std::vector<std::optional<ekf::LandmarkId>> CollaborativeSlam::start_landmarks(
 }
 
 int CollaborativeSlam::add_pseudo_stereo(const GrayImage& image, const StereoView& view,
-                                         const NewPoints::Budget& budget, PseudoStereoCounts& counts) {
-  const auto points = new_points_.find(view, image, tracks_.found_pixels(), budget, counts);
+                                         const WornMatches& matches, const NewPoints::Budget& budget,
+                                         PseudoStereoCounts& counts) {
+  const auto points =
+      wearer_matcher_.new_points(view, image, matches, tracks_.found_pixels(), budget, counts);
   const auto ids = start_landmarks(points, view.rig);
   int added = 0;
   for (std::size_t i = 0; i < ids.size(); ++i) {

@@ -15,10 +15,9 @@
 #include "robot_agent/slam/landmark_tracks.hpp"
 #include "robot_agent/slam/map_maintenance.hpp"
 #include "robot_agent/slam/motion_prior.hpp"
-#include "robot_agent/slam/new_points.hpp"
 #include "robot_agent/slam/options.hpp"
-#include "robot_agent/slam/pseudo_stereo.hpp"
 #include "robot_agent/slam/stopwatch.hpp"
+#include "robot_agent/slam/wearer_matcher.hpp"
 #include "robot_agent/vision/corner_detector.hpp"
 #include "robot_agent/vision/point_tracker.hpp"
 
@@ -46,21 +45,21 @@ class CollaborativeSlam {
   bool advance_to(const FrameBundle& bundle);
   bool is_wide(const std::vector<ekf::PixelPrediction>& predictions) const;
   bool may_use_wearer(Stamp stamp) const;
+  bool is_wearer_due(Stamp stamp) const;
   std::optional<StereoView> wearer_view(const FrameBundle& bundle, const std::vector<Sighting>& sightings,
                                         FrameEstimate& estimate) const;
-  PseudoStereo::Matches match_in_wearer(StereoView& view, const GrayImage& image,
-                                        const std::vector<Sighting>& sightings, PseudoStereoCounts& counts);
   std::vector<ekf::Measurement> validate(const std::vector<ekf::Measurement>& measurements,
                                          FrameEstimate& estimate);
   void note_fused(const std::vector<Sighting>& sightings, const ekf::UpdateReport& report,
                   FrameEstimate& estimate);
-  void renew_map(const GrayImage& image, const std::optional<StereoView>& view, FrameEstimate& estimate,
-                 Stopwatch& watch);
-  void begin(const GrayImage& image, const std::optional<StereoView>& view, FrameEstimate& estimate);
+  void renew_map(const GrayImage& image, const std::optional<StereoView>& view, const WornMatches& matches,
+                 FrameEstimate& estimate, Stopwatch& watch);
+  void begin(const GrayImage& image, const std::optional<StereoView>& view, const WornMatches& matches,
+             FrameEstimate& estimate);
   std::vector<std::optional<ekf::LandmarkId>> start_landmarks(const std::vector<NewPoint>& points,
                                                               const ekf::StereoRig& rig);
-  int add_pseudo_stereo(const GrayImage& image, const StereoView& view, const NewPoints::Budget& budget,
-                        PseudoStereoCounts& counts);
+  int add_pseudo_stereo(const GrayImage& image, const StereoView& view, const WornMatches& matches,
+                        const NewPoints::Budget& budget, PseudoStereoCounts& counts);
   void renew_references(const GrayImage& image);
   void describe(FrameEstimate& estimate);
 
@@ -73,8 +72,7 @@ class CollaborativeSlam {
   LandmarkTracks tracks_;
   LandmarkSearch search_;
   CandidatePool candidates_;
-  PseudoStereo pseudo_stereo_;
-  NewPoints new_points_;
+  WearerMatcher wearer_matcher_;
   MapMaintenance maintenance_;
   MotionPrior motion_prior_;
   vision::PointTracker tracker_;
@@ -86,6 +84,7 @@ class CollaborativeSlam {
   ConvexPolygon silhouette_;                ///< of the wearer in the present frame [px]
   std::optional<Stamp> last_stamp_;
   std::optional<Stamp> scale_stamp_;  ///< when tracking began
+  std::optional<Stamp> view_stamp_;   ///< of the last frame whose overlap with Cf was measured
   int frames_without_match_ = 0;
 };
 

@@ -10,6 +10,7 @@ namespace cosight::slam {
 namespace {
 
 constexpr int kPatchSide = 13;
+constexpr int kRest = 10;  ///< frames for which a corner without a match is left alone
 
 vision::CornerOptions corner_options(int min_distance_px) {
   vision::CornerOptions result;
@@ -56,18 +57,23 @@ void NewPoints::rest_refusals() {
   std::erase_if(refusals_, [](const Refusal& refusal) { return refusal.frames_left <= 0; });
 }
 
-std::vector<NewPoint> NewPoints::find_by_band(const StereoView& view, const GrayImage& image_S,
-                                              std::vector<Eigen::Vector2d> occupied, const Budget& budget,
-                                              PseudoStereoCounts& counts) {
-  constexpr int kRest = 10;  // frames
-  vision::build_pyramid(*view.image_F, pyramid_F_);
+std::vector<vision::Corner> NewPoints::corners_to_try(const StereoView& view, const GrayImage& image_S,
+                                                      std::vector<Eigen::Vector2d> occupied, int tries) {
   for (const Refusal& refusal : refusals_)
     occupied.push_back(refusal.pixel);
+  auto corners = corners_.detect(image_S, occupied, tries, &view.overlap.roi_in_S);
+  std::erase_if(corners,
+                [&](const vision::Corner& corner) { return contains(view.silhouette, corner.pixel); });
+  vision::build_pyramid(*view.image_F, pyramid_F_);
+  return corners;
+}
+
+std::vector<NewPoint> NewPoints::find_by_band(const StereoView& view, const GrayImage& image_S,
+                                              const std::vector<Eigen::Vector2d>& occupied,
+                                              const Budget& budget, PseudoStereoCounts& counts) {
   std::vector<NewPoint> points;
-  for (const vision::Corner& corner :
-       corners_.detect(image_S, occupied, budget.tries, &view.overlap.roi_in_S)) {
+  for (const vision::Corner& corner : corners_to_try(view, image_S, occupied, budget.tries)) {
     if (static_cast<int>(points.size()) == budget.points) break;
-    if (contains(view.silhouette, corner.pixel)) continue;
     if (const auto point = match_corner(view, image_S, corner.pixel, counts)) {
       points.push_back(*point);
     } else {
@@ -141,19 +147,37 @@ vision::PatchMatch NewPoints::search_band(const StereoView& view, const GrayImag
   return band_search_.find(pyramid_F_, {patch, slam, slam, wearer, pixel_S, all}, band);
 }
 
-std::vector<ekf::StereoMatch> NewPoints::guesses(const StereoView& view, const GrayImage& image_S,
-                                                 int wanted) {
-  vision::build_pyramid(*view.image_F, pyramid_F_);
-  std::vector<ekf::StereoMatch> matches;
-  for (const vision::Corner& corner : corners_.detect(image_S, {}, wanted, &view.overlap.roi_in_S)) {
-    const bool hidden = contains(view.silhouette, corner.pixel);
-    const auto band = hidden ? std::nullopt : band_of(view, corner.pixel);
-    if (!band) continue;
-    const auto found = search_band(view, image_S, corner.pixel, *band);
-    if (found || found.outcome == vision::SearchOutcome::kAmbiguous)
-      matches.push_back({corner.pixel, found.pixel});
+std::vector<Guess> NewPoints::guesses(const StereoView& view, const GrayImage& image_S,
+                                      const std::vector<Eigen::Vector2d>& occupied, int tries) {
+  std::vector<Guess> guesses;
+  for (const vision::Corner& corner : corners_to_try(view, image_S, occupied, tries)) {
+    const auto band = band_of(view, corner.pixel);
+    const auto found = band ? search_band(view, image_S, corner.pixel, *band) : vision::PatchMatch{};
+    const bool is_ambiguous = found.outcome == vision::SearchOutcome::kAmbiguous;
+    if (found || is_ambiguous) {
+      guesses.push_back(
+          {{{corner.pixel, found.pixel}, normals_S_[band_search_.best_normal()]}, is_ambiguous});
+    } else {
+      refusals_.push_back({corner.pixel, kRest});
+    }
   }
-  return matches;
+  return guesses;
+}
+
+std::vector<NewPoint> NewPoints::judge(const StereoView& view, const std::vector<Guess>& guesses, int wanted,
+                                       PseudoStereoCounts& counts) const {
+  std::vector<NewPoint> points;
+  for (const Guess& guess : guesses) {
+    ++counts.described;
+    if (guess.is_ambiguous) {
+      ++counts.ratio_test;
+    } else if (static_cast<int>(points.size()) == wanted) {
+      ++counts.redundant;
+    } else if (accept(view, guess.point.match, counts)) {
+      points.push_back(guess.point);
+    }
+  }
+  return points;
 }
 
 std::optional<NewPoint> NewPoints::match_corner(const StereoView& view, const GrayImage& image_S,

@@ -23,6 +23,12 @@ struct NewPoint {
   std::optional<Eigen::Vector3d> normal_S;
 };
 
+/// A corner and where it may be in Cf.
+struct Guess {
+  NewPoint point;
+  bool is_ambiguous = false;
+};
+
 /// New points that both cameras see, inside the overlap (C section 2): corners of Cs by ZNCC along their
 /// epipolar band, or features of both by descriptors that compete within the band.
 class NewPoints {
@@ -41,17 +47,25 @@ class NewPoints {
                              PseudoStereoCounts& counts);
 
   /// Corners of Cs inside the overlap with the best place in their band, however wide and however ambiguous:
-  /// for a pose of Cf that is to be found, not for depth.
-  std::vector<ekf::StereoMatch> guesses(const StereoView& view, const GrayImage& image_S, int wanted);
+  /// for a pose of Cf that is to be found. Away from the `occupied` pixels and from corners that lately had
+  /// no match.
+  std::vector<Guess> guesses(const StereoView& view, const GrayImage& image_S,
+                             const std::vector<Eigen::Vector2d>& occupied, int tries);
+
+  /// Those of the guesses that are new points once the pose of Cf is known better.
+  std::vector<NewPoint> judge(const StereoView& view, const std::vector<Guess>& guesses, int wanted,
+                              PseudoStereoCounts& counts) const;
 
  private:
   std::vector<NewPoint> find_by_band(const StereoView& view, const GrayImage& image_S,
-                                     std::vector<Eigen::Vector2d> occupied, const Budget& budget,
+                                     const std::vector<Eigen::Vector2d>& occupied, const Budget& budget,
                                      PseudoStereoCounts& counts);
   std::vector<NewPoint> find_by_descriptors(const StereoView& view, const GrayImage& image_S,
                                             std::vector<Eigen::Vector2d> occupied, int wanted,
                                             PseudoStereoCounts& counts);
   void rest_refusals();
+  std::vector<vision::Corner> corners_to_try(const StereoView& view, const GrayImage& image_S,
+                                             std::vector<Eigen::Vector2d> occupied, int tries);
   std::optional<vision::EpipolarBand> band_of(const StereoView& view, const Eigen::Vector2d& pixel_S) const;
   vision::PatchMatch search_band(const StereoView& view, const GrayImage& image_S,
                                  const Eigen::Vector2d& pixel_S, const vision::EpipolarBand& band);

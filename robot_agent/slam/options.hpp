@@ -62,6 +62,9 @@ struct PseudoStereoOptions {
   double max_ambiguity = 0.9;              ///< second best peak / best along the band
   double band_sigmas = 3.0;                ///< half-width of the epipolar band in sigmas of the pose
   int max_band_radius = 80;                ///< the band is cut to this half-width around the prediction [px]
+  /// Between two worn frames that are used, once the map has begun [s]. What the sensors get wrong of Cf's
+  /// pose hardly changes in less, so that more frames cost time and tell nothing new.
+  double interval_s = 0.25;
   /// The points of a frame share the error of Cf's pose: measured with it (off-diagonal blocks of R), or as
   /// if independent (the paper).
   bool correlated_updates = true;
