@@ -119,14 +119,17 @@ BodySighting one_leg(const std::vector<Limb>& limbs, std::size_t a, const Person
   body.part = BodyPart::kOneLeg;
   body.p_O = leg.p_O;
   body.covariance = leg.covariance;
+  body.correlation = person.hidden_scans;
   if (leg.stands_free) {
     // Then the other leg is hidden behind this one: 0.2 to 0.5 m away, the axis in the middle.
     body.p_O += 0.75 * person.leg_spread * leg.along_ray;
     body.covariance += along_and_across(leg.along_ray, 0.6 * person.leg_spread, 0.6 * person.leg_spread);
   } else {
+    // Whatever hides the other leg hides the same side of the body for longer than a step.
+    constexpr double kSteps = 3.0;
+    body.correlation *= kSteps;
     body.covariance += person.leg_spread * person.leg_spread * Eigen::Matrix2d::Identity();
   }
-  body.correlation = person.hidden_scans;
   constexpr double kOneSeen = 0.3;
   body.surprise = -2.0 * std::log(kOneSeen);
   body.limbs = {a};

@@ -43,7 +43,7 @@ struct PersonModel {
   double max_leg_width = 0.26;  ///< a wider cluster is two legs [m]
   double max_stride = 0.65;     ///< between the axes of the two legs [m]
   double leg_spread = 0.16;     ///< of a leg about the body's axis, 1 sigma each way [m]
-  double pair_sigma = 0.02;     ///< of the middle of two legs about the body's axis, each way [m]
+  double pair_sigma = 0.025;    ///< of the middle of two legs about the body's axis, each way [m]
   double torso_radius = 0.14;   ///< from the surface to the axis [m]
   double max_width = 0.8;       ///< of a torso, arms included [m]
   double hip_height = 0.85;     ///< a laser above this sees the torso [m]
@@ -52,7 +52,7 @@ struct PersonModel {
 
 /// How people move, and when a track of one begins and ends.
 struct TrackOptions {
-  double acceleration = 0.4;   ///< density of the white acceleration [m/s^2/sqrt(Hz)]
+  double acceleration = 0.8;    ///< density of the white acceleration [m/s^2/sqrt(Hz)]
   double unknown_motion = 1.5;  ///< the same while the robot's own motion is unknown
   double start_speed = 0.8;     ///< of a new track, 1 sigma each way [m/s]
   double gate = 13.8;           ///< squared Mahalanobis distance of a sighting: 99.9 % of two dof
@@ -77,7 +77,7 @@ struct StartOptions {
 /// x where the face points, z up.
 struct HeadOptions {
   double height = 1.65;                   ///< of H above the floor [m]
-  double height_sigma = 0.015;             ///< with the bob of the walk [m]
+  double height_sigma = 0.015;            ///< with the bob of the walk [m]
   double sway_sigma = 0.012;              ///< of H about the body's axis, each way [m]
   Eigen::Vector3d p_HF{0.11, 0.0, 0.06};  ///< the camera on the head [m]
   Pose T_BS{Eigen::Quaterniond(0.5, -0.5, 0.5, -0.5), {0.1, 0.0, 0.85}};  ///< optical frame
