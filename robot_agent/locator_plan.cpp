@@ -1,0 +1,17 @@
+#include "robot_agent/locator_plan.hpp"
+
+namespace cosight::robot {
+
+std::optional<LocatorPlan> plan_locator(const RobotOptions& options, const AgentInput& input) {
+  using enum WearerPoseFrom;
+  const bool is_auto = options.wearer.pose_from == kAuto;
+  const bool can_locate = !input.lasers.empty() && input.T_BS;
+  const bool locates = is_auto ? can_locate && !input.has_wearer_pose : options.wearer.pose_from == kLaser;
+  if (!locates) return std::nullopt;
+  const inbox::MountingOptions& mounting = options.inbox.mounting;
+  return LocatorPlan{with_mountings(options.wearer.tracking, input),
+                     {mounting.yaw_offset, mounting.yaw_offset_sigma},
+                     is_auto};
+}
+
+}  // namespace cosight::robot
