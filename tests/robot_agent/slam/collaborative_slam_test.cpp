@@ -232,6 +232,17 @@ TEST(WhyNoMatch, SaysThatNoWornImageOrNoPoseCame) {
   EXPECT_EQ(slam.process(bundle).pseudo_stereo_outcome, PseudoStereoOutcome::kNoWearerPose);
 }
 
+TEST(WhyNoMatch, SaysThatAWornFrameIsNotDue) {
+  SlamOptions options = world().options();
+  options.pseudo_stereo.interval_s = 0.25;
+  CollaborativeSlam slam(world().camera(), options);
+  std::vector<PseudoStereoOutcome> outcomes;
+  for (int frame = 0; frame < 5; ++frame)
+    outcomes.push_back(slam.process(world().bundle(frame)).pseudo_stereo_outcome);
+  using enum PseudoStereoOutcome;
+  EXPECT_EQ(outcomes, (std::vector{kMatched, kNotDue, kNotDue, kMatched, kNotDue}));  // 10 Hz
+}
+
 TEST(WhyNoMatch, SaysThatCamerasBackToBackShareNothing) {
   CollaborativeSlam slam = collaborative();
   run(slam, 0, 4);

@@ -109,6 +109,7 @@ FrameBundle TwoCameraWorld::without_image(int frame) const {
 SlamOptions TwoCameraWorld::options() const {
   SlamOptions options;
   options.start.T_WS = T_WS(0);
+  options.pseudo_stereo.interval_s = 0.0;  // every frame counts
   return options;
 }
 

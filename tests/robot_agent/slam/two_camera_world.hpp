@@ -35,7 +35,7 @@ class TwoCameraWorld {
   /// Corners of the first image and where they are in W.
   const std::vector<KnownPoint>& known_points() const { return known_points_; }
 
-  /// Starts at the true first pose, with a motion that suits the robot.
+  /// Starts at the true first pose, with a motion that suits the robot; every worn frame is used.
   SlamOptions options() const;
 
  private:
