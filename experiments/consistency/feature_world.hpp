@@ -15,10 +15,10 @@ enum class WorldShape {
 /// A world of points that two pinhole cameras see, with exact truth and known association. It shares nothing
 /// with the filter: rotation matrices by Rodrigues' formula, its own projection, its own draws.
 struct FeatureWorldOptions {
-  WorldShape shape = WorldShape::kBox;
+  WorldShape shape = WorldShape::kCorridor;
   double dt = 0.1;                           ///< [s]
-  double sigma_acceleration = 0.4;           ///< [m/s^2] new in each step, as an impulse
-  double sigma_angular_acceleration = 0.15;  ///< [rad/s^2]
+  double sigma_acceleration = 0.1;           ///< [m/s^2] new in each step, as an impulse
+  double sigma_angular_acceleration = 0.05;  ///< [rad/s^2]
   double pixel_sigma = 1.0;                  ///< [px] both cameras
   double wearer_sigma_p = 0.02;              ///< [m] each axis of T_SF
   double wearer_sigma_theta = 0.005;         ///< [rad] each axis of T_SF

@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -28,28 +29,36 @@ std::vector<Mode> modes() {
     all.push_back(mode);
   };
   add("collaborative", [](RunOptions&) {});
-  add("always", [](RunOptions& o) { o.glance_steps = o.glance_period; });
   add("mono", [](RunOptions& o) { o.last_glance = 5; });
-  add("corridor", [](RunOptions& o) {
-    o.world.shape = WorldShape::kCorridor;
-    o.world.sigma_angular_acceleration = 0.05;
-    o.world.sigma_acceleration = 0.1;
+  add("always", [](RunOptions& o) { o.glance_steps = o.glance_period; });
+  add("room", [](RunOptions& o) {
+    o.world.shape = WorldShape::kBox;
+    o.world.sigma_acceleration = 0.2;
+    o.world.sigma_angular_acceleration = 0.1;
   });
-  add("uncorrelated_updates", [](RunOptions& o) {
-    o.filter.correlated_wearer_pose = false;
-    o.correlated_starts = true;
+  add("independent_updates", [](RunOptions& o) { o.filter.correlated_wearer_pose = false; });
+  add("independent_starts", [](RunOptions& o) { o.correlated_starts = false; });
+  add("iterated", [](RunOptions& o) { o.filter.max_iterations = 4; });
+  add("points", [](RunOptions& o) { o.wearer_form = WearerForm::kPoint; });
+  add("points_in_metres", [](RunOptions& o) {
+    o.wearer_form = WearerForm::kPoint;
+    o.filter.point_form = ekf::PointForm::kEuclidean;
   });
-  add("uncorrelated_starts", [](RunOptions& o) { o.correlated_starts = false; });
-  add("metric_points", [](RunOptions& o) { o.filter.point_form = ekf::PointForm::kEuclidean; });
   add("paper", [](RunOptions& o) {
+    o.wearer_form = WearerForm::kPoint;
     o.filter.point_form = ekf::PointForm::kEuclidean;
     o.filter.correlated_wearer_pose = false;
     o.correlated_starts = false;
     o.first_pose = FirstPose::kIndependent;
   });
-  add("iterated", [](RunOptions& o) { o.filter.max_iterations = 4; });
-  add("independent_first_pose", [](RunOptions& o) { o.first_pose = FirstPose::kIndependent; });
   add("overconfident", [](RunOptions& o) { o.claimed_variance = 1.0 / 3.0; });
+  for (const WearerForm form : {WearerForm::kPixel, WearerForm::kPoint}) {
+    add(form == WearerForm::kPixel ? "wide_noise" : "wide_noise_points", [form](RunOptions& o) {
+      o.wearer_form = form;
+      o.world.wearer_sigma_p = 0.05;
+      o.world.wearer_sigma_theta = 2.0 * std::numbers::pi / 180.0;
+    });
+  }
   return all;
 }
 

@@ -1,8 +1,9 @@
 // New landmarks against sampling: their covariance, and the covariance with all that they come from.
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+
 #include "robot_agent/ekf/filter.hpp"
-#include "tests/robot_agent/ekf/feature_world.hpp"
 #include "tests/robot_agent/ekf/random_scene.hpp"
 
 namespace cosight::ekf {
@@ -66,7 +67,8 @@ class Initialisation : public testing::TestWithParam<unsigned> {
   }
   Pose draw_pose(const UncertainPose& pose, const Eigen::Matrix<double, 6, 6>& L) {
     const VectorXd e = L * scene.normals(6);
-    return {Eigen::Quaterniond(FeatureWorld::rodrigues(e.tail<3>())) * pose.T.q, pose.T.p + e.head<3>()};
+    const Vector3d turn = e.tail<3>();
+    return {Eigen::AngleAxisd(turn.norm(), turn.normalized()) * pose.T.q, pose.T.p + e.head<3>()};
   }
   static Vector3d ray(const Vector2d& pixel) {
     return {(pixel.x() - 320.0) / 450.0, (pixel.y() - 240.0) / 450.0, 1.0};
