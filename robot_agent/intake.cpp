@@ -10,9 +10,13 @@ namespace cosight::robot {
 
 Intake::Intake(inbox::Inbox& inbox, const transport::Participant& participant,
                const std::optional<LocatorPlan>& plan)
+    : Intake(inbox, plan) {
+  if (plan) located_.emplace(participant, transport::topics::kRobotWearerPose);
+}
+
+Intake::Intake(inbox::Inbox& inbox, const std::optional<LocatorPlan>& plan)
     : inbox_(inbox), takes_tracked_(!plan || plan->yields) {
   if (!plan) return;
-  located_.emplace(participant, transport::topics::kRobotWearerPose);
   locator_.emplace(plan->options, plan->yaw_WA,
                    [this](Stamp stamp, const auto& pose) { take_located(stamp, pose); });
 }
@@ -56,7 +60,7 @@ void Intake::report(outbox::YamlText& text) const {
       .value("seen", counters.seen)
       .value("predicted", counters.predicted)
       .value("losses", counters.losses);
-  outbox::report(text, "dds_wearer_by_laser", located_->counters());
+  if (located_) outbox::report(text, "dds_wearer_by_laser", located_->counters());
 }
 
 void Intake::take_tracked(const WearerPoseSample& pose) {
@@ -72,7 +76,7 @@ void Intake::take_located(Stamp stamp, const std::optional<WearerPoseSample>& po
     inbox_.push_no_wearer_pose(stamp);
     return;
   }
-  located_->publish(*pose);
+  if (located_) located_->publish(*pose);
   inbox_.push_wearer_pose(*pose);
 }
 

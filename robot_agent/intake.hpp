@@ -26,6 +26,8 @@ class Intake {
   /// Without a `plan` only a tracker's poses are used. `inbox` has to outlive this. Throws TransportError.
   Intake(inbox::Inbox& inbox, const transport::Participant& participant,
          const std::optional<LocatorPlan>& plan);
+  /// The same, but what the lasers say is not published.
+  Intake(inbox::Inbox& inbox, const std::optional<LocatorPlan>& plan);
 
   /// Of the robot's own sensors, or of its tracker.
   void push(Sample sample);

@@ -43,8 +43,9 @@ RobotOptions read_robot_options(const ConfigNode& root) {
   options.inbox = read_inbox_options(root.section("inbox"));
   options.slam = read_slam_options(root.section("slam"));
   options.wearer = read_wearer_section(root.section("wearer"));
-  options.wait_for_wearer =
-      root.section("start").number("wait_for_wearer", options.wait_for_wearer, 0.0, 86'400.0);
+  const ConfigNode start = root.section("start");
+  options.wait_for_wearer = start.number("wait_for_wearer", options.wait_for_wearer, 0.0, 86'400.0);
+  options.wait_for_sensors = start.number("wait_for_sensors", options.wait_for_sensors, 0.0, 86'400.0);
   options.run_dir = root.path("run_dir", options.run_dir);
   return options;
 }

@@ -22,7 +22,8 @@ struct RobotOptions {
   inbox::InboxOptions inbox;
   slam::SlamOptions slam;
   WearerSection wearer;
-  double wait_for_wearer = 10.0;  ///< before the first frame [s]; then the robot goes on alone
+  double wait_for_wearer = 10.0;   ///< before the first frame [s]; then the robot goes on alone
+  double wait_for_sensors = 60.0;  ///< whose calibration only their topic tells [s]
   std::filesystem::path run_dir = "runs/robot";
 };
 

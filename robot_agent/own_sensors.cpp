@@ -1,27 +1,26 @@
 #include "robot_agent/own_sensors.hpp"
 
 #include "robot_agent/outbox/publisher.hpp"
+#include "shared/transport/robot_topic_source.hpp"
 
 namespace cosight::robot {
 
-OwnSensors::OwnSensors(const AgentInput& input, const ReplayOptions& replay,
+OwnSensors::OwnSensors(const AgentInput& input, const RobotOptions& options,
                        const transport::Participant& participant, Intake& intake, inbox::Inbox& inbox,
                        const std::atomic<bool>& stop)
     : camera_(input.camera),
-      as_fast_as_possible_(!input.live && replay.rate <= 0.0),
+      as_fast_as_possible_(!input.live && options.replay.rate <= 0.0),
       intake_(intake),
       inbox_(inbox),
-      stop_(stop),
-      source_(input.live ? input.open() : std::make_unique<PacedReplay>(input.open, replay, clock_, stop)),
-      frames_(participant, transport::topics::kRobotImageCompressed),
-      calibration_(participant, transport::topics::kRobotCameraInfo),
-      front_scans_(participant, transport::topics::kRobotLaserFront),
-      rear_scans_(participant, transport::topics::kRobotLaserRear),
-      imu_(participant, transport::topics::kRobotImu),
-      odometry_(participant, transport::topics::kRobotWheelOdometry) {
-  if (input.has_wearer_pose && intake.takes_tracked_poses()) {
-    poses_.emplace(participant, transport::topics::kRobotWearerPose);
+      stop_(stop) {
+  if (options.input.topics) {
+    source_ = std::make_unique<transport::RobotTopicSource>(participant, options.input.end_after, stop);
+    return;
   }
+  source_ =
+      input.live ? input.open() : std::make_unique<PacedReplay>(input.open, options.replay, clock_, stop);
+  const bool tells_poses = input.has_wearer_pose && intake.takes_tracked_poses();
+  publisher_.emplace(participant, options.input.output.encoding, tells_poses);
 }
 
 OwnSensors::~OwnSensors() {
@@ -35,25 +34,15 @@ void OwnSensors::start() {
 void OwnSensors::play() {
   bool is_first = true;
   while (auto sample = source_->next()) {
-    if (is_first) calibration_.publish({stamp_of(*sample), camera_});
+    if (publisher_ && is_first) publisher_->publish(camera_, stamp_of(*sample));
     is_first = false;
-    publish(*sample);
+    if (publisher_) publisher_->publish(*sample);
     intake_.push(std::move(*sample));
     constexpr Stamp kSlice = kNanosecondsPerSecond / 10;
     while (as_fast_as_possible_ && !stop_ && !inbox_.wait_for_room(kSlice)) {
     }
   }
   intake_.close();
-}
-
-void OwnSensors::publish(const Sample& sample) {
-  if (const auto* frame = std::get_if<ImageSample>(&sample)) frames_.publish(*frame);
-  if (const auto* imu = std::get_if<ImuSample>(&sample)) imu_.publish(*imu);
-  if (const auto* odometry = std::get_if<WheelOdometrySample>(&sample)) odometry_.publish(*odometry);
-  if (const auto* pose = std::get_if<WearerPoseSample>(&sample); pose && poses_) poses_->publish(*pose);
-  if (const auto* scan = std::get_if<LaserScanSample>(&sample)) {
-    (scan->laser == transport::frames::kLaserFront ? front_scans_ : rear_scans_).publish(*scan);
-  }
 }
 
 void OwnSensors::report(outbox::YamlText& text) const {
@@ -65,11 +54,9 @@ void OwnSensors::report(outbox::YamlText& text) const {
       .value("not_finite", counters.not_finite)
       .value("stamp_went_back", counters.stamp_went_back)
       .value("gaps", counters.gaps);
-  outbox::report(text, "dds_robot_image_compressed", frames_.counters());
-  outbox::report(text, "dds_robot_laser_front", front_scans_.counters());
-  outbox::report(text, "dds_robot_laser_rear", rear_scans_.counters());
-  outbox::report(text, "dds_robot_imu", imu_.counters());
-  outbox::report(text, "dds_robot_wheel_odometry", odometry_.counters());
+  if (!publisher_) return;
+  for (const auto& [section, sent] : publisher_->counters())
+    outbox::report(text, section, sent);
 }
 
 }  // namespace cosight::robot

@@ -7,20 +7,21 @@
 
 #include "robot_agent/inbox/inbox.hpp"
 #include "robot_agent/intake.hpp"
+#include "robot_agent/options.hpp"
 #include "robot_agent/outbox/yaml_text.hpp"
 #include "shared/dataset/agent_input.hpp"
 #include "shared/dataset/paced_replay.hpp"
-#include "shared/transport/publisher.hpp"
-#include "shared/transport/topics.hpp"
+#include "shared/transport/robot_publisher.hpp"
 
 namespace cosight::robot {
 
 /// The robot's own camera, lasers, IMU, wheels and tracker, read in a thread of their own in the rhythm of
-/// their stamps: straight to the intake, and to DDS for whoever records or watches.
+/// their stamps: straight to the intake, and to DDS for whoever records or watches, unless they came from
+/// there.
 class OwnSensors {
  public:
   /// `intake`, `inbox` and `stop` have to outlive this. Throws DatasetError or TransportError.
-  OwnSensors(const AgentInput& input, const ReplayOptions& replay, const transport::Participant& participant,
+  OwnSensors(const AgentInput& input, const RobotOptions& options, const transport::Participant& participant,
              Intake& intake, inbox::Inbox& inbox, const std::atomic<bool>& stop);
   ~OwnSensors();
   OwnSensors(const OwnSensors&) = delete;
@@ -35,7 +36,6 @@ class OwnSensors {
 
  private:
   void play();
-  void publish(const Sample& sample);
 
   CameraModel camera_;
   bool as_fast_as_possible_;
@@ -44,13 +44,7 @@ class OwnSensors {
   const std::atomic<bool>& stop_;
   SteadyClock clock_;
   std::unique_ptr<SampleSource> source_;
-  transport::Publisher<ImageSample> frames_;
-  transport::Publisher<CameraInfoSample> calibration_;
-  transport::Publisher<LaserScanSample> front_scans_;
-  transport::Publisher<LaserScanSample> rear_scans_;
-  transport::Publisher<ImuSample> imu_;
-  transport::Publisher<WheelOdometrySample> odometry_;
-  std::optional<transport::Publisher<WearerPoseSample>> poses_;
+  std::optional<transport::RobotPublisher> publisher_;  ///< none when the samples come from topics
   std::thread thread_;
 };
 

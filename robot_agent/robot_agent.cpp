@@ -4,6 +4,9 @@
 
 #include <chrono>
 
+#include "robot_agent/locator_plan.hpp"
+#include "shared/transport/robot_topic_source.hpp"
+
 namespace cosight::robot {
 namespace {
 
@@ -14,17 +17,23 @@ inbox::InboxOptions with_camera(inbox::InboxOptions options, const CameraModel& 
   return options;
 }
 
-/// Nothing when a tracker says where the wearer is, or nobody does.
-std::optional<LocatorPlan> plan_locator(const RobotOptions& options, const AgentInput& input) {
-  using enum WearerPoseFrom;
-  const bool is_auto = options.wearer.pose_from == kAuto;
-  const bool can_locate = !input.lasers.empty() && input.T_BS;
-  const bool locates = is_auto ? can_locate && !input.has_wearer_pose : options.wearer.pose_from == kLaser;
-  if (!locates) return std::nullopt;
-  const inbox::MountingOptions& mounting = options.inbox.mounting;
-  return LocatorPlan{with_mountings(options.wearer.tracking, input),
-                     {mounting.yaw_offset, mounting.yaw_offset_sigma},
-                     is_auto};
+/// With the camera that its topic tells, when no file does.
+AgentInput with_received_camera(AgentInput input, const RobotOptions& options,
+                                const transport::Participant& participant, const std::atomic<bool>& stop) {
+  if (input.knows_camera) return input;
+  const std::string topic(transport::topics::kRobotCameraInfo.profile.name);
+  spdlog::info("waiting up to {:g} s for {} on domain {}", options.wait_for_sensors, topic,
+               options.dds.domain);
+  const auto camera = transport::receive_robot_camera(
+      participant, milliseconds(static_cast<std::int64_t>(1e3 * options.wait_for_sensors)), stop);
+  if (!camera) {
+    throw transport::TransportError("nobody told the robot's camera on " + topic + " of domain " +
+                                    std::to_string(options.dds.domain) +
+                                    "; start what publishes its sensors, or give --calibration");
+  }
+  input.camera = *camera;
+  input.knows_camera = true;
+  return input;
 }
 
 Stamp steady_now() {
@@ -37,8 +46,9 @@ RobotAgent::RobotAgent(const RobotOptions& options, const outbox::RunDescription
                        const std::atomic<bool>& stop)
     : options_(options),
       stop_(stop),
-      input_(prepare_input(options.input, Agent::kRobot, stop)),
       participant_(options.dds),
+      input_(with_received_camera(prepare_input(options.input, Agent::kRobot, stop), options, participant_,
+                                  stop)),
       inbox_(with_camera(options.inbox, input_.camera)),
       intake_(inbox_, participant_, plan_locator(options, input_)),
       slam_(input_.camera, options.slam, input_.known_points, steady_now),
@@ -46,7 +56,7 @@ RobotAgent::RobotAgent(const RobotOptions& options, const outbox::RunDescription
       publisher_(participant_),
       presence_(participant_, transport::topics::kRobotHeartbeat, options.agent_id),
       wearer_(participant_, inbox_, intake_, !input_.has_wearer_pose && intake_.takes_tracked_poses()),
-      sensors_(input_, options.replay, participant_, intake_, inbox_, stop) {
+      sensors_(input_, options, participant_, intake_, inbox_, stop) {
   spdlog::info("robot '{}' on domain {}: {}", options.agent_id, options.dds.domain, sensors_.description());
 }
 

@@ -42,8 +42,8 @@ class RobotAgent {
 
   RobotOptions options_;
   const std::atomic<bool>& stop_;
-  AgentInput input_;
   transport::Participant participant_;
+  AgentInput input_;
   inbox::Inbox inbox_;
   Intake intake_;
   slam::CollaborativeSlam slam_;

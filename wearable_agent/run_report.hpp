@@ -4,13 +4,13 @@
 #include <string>
 
 #include "shared/dataset/sample_source.hpp"
-#include "wearable_agent/sample_publisher.hpp"
+#include "shared/transport/wearer_publisher.hpp"
 
 namespace cosight::wearable {
 
 /// What a run sent and skipped.
 struct RunReport {
-  SentCounters sent;
+  transport::SentCounters sent;
   SourceCounters frames;        ///< of the input
   SourceCounters orientations;  ///< of the input
   double duration = 0.0;        ///< from the first sample to the end [s]

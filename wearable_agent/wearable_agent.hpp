@@ -38,7 +38,7 @@ class WearableAgent {
   std::unique_ptr<SampleSource> source_;
   transport::Participant participant_;
   transport::AgentPresence presence_;
-  SamplePublisher publisher_;
+  transport::WearerPublisher publisher_;
   Stamp started_ = 0;          ///< by `clock_`
   double cpu_at_start_ = 0.0;  ///< [s]
 };

@@ -42,6 +42,9 @@ void read_wearer_options(const ConfigNode& node, InputOptions& options) {
 }
 
 void read_robot_options(const ConfigNode& node, InputOptions& options) {
+  options.topics = node.boolean("topics", options.topics);
+  options.recording = node.path("recording", options.recording);
+  options.end_after = node.number("end_after_s", options.end_after, 0.0, 86'400.0);
   auto& noise = options.wearer_pose_noise;
   options.wearer_pose = node.path("wearer_pose", options.wearer_pose);
   noise.position = node.number("wearer_position_sigma_m", noise.position, 1e-5, 100.0);
@@ -59,14 +62,20 @@ void read_robot_options(const ConfigNode& node, InputOptions& options) {
   }
 }
 
-void require_one_source(const ConfigNode& node, const InputOptions& options) {
-  const auto given = {!options.dataset.empty(), !options.images.empty(), !options.video.empty(),
-                      !options.device.empty()};
+void require_one_source(const ConfigNode& node, const InputOptions& options, Agent agent) {
+  const bool described_only = options.topics || !options.recording.empty();
+  const auto given = {!options.dataset.empty() && !described_only,
+                      !options.images.empty(),
+                      !options.video.empty(),
+                      !options.device.empty(),
+                      options.topics,
+                      !options.recording.empty()};
   const auto count = std::count(given.begin(), given.end(), true);
   if (count == 1) return;
   throw node.error(count == 0 ? "dataset" : "images",
-                   "give " + std::string(count == 0 ? "one" : "only one") +
-                       " of dataset, images, video and device (--dataset DIR is the simplest)");
+                   "give " + std::string(count == 0 ? "one" : "only one") + " of dataset, images, video" +
+                       (agent == Agent::kRobot ? ", device, topics and recording" : " and device") +
+                       " (--dataset DIR is the simplest)");
 }
 
 /// EuRoC's sensor.yaml lies beside data.csv.
@@ -96,6 +105,30 @@ AgentInput prepare_dataset(const InputOptions& options, Agent agent) {
       return dataset.open_wearer(options.output, options.ahrs_noise, options.gate);
     };
   }
+  return input;
+}
+
+/// What a robot's files say of how it is built. `calibration` may be empty.
+AgentInput describe_robot(const InputOptions& options, const std::filesystem::path& calibration) {
+  AgentInput input;
+  const RobotFiles& files = options.robot;
+  if (!calibration.empty()) {
+    input.camera = load_camera_model(calibration, options.camera);
+    input.T_BS = load_body_extrinsics(calibration, options.camera);
+  }
+  if (!files.lasers.empty()) input.lasers = read_laser_mountings(files.lasers);
+  if (!files.known_points.empty()) input.known_points = read_known_points(files.known_points);
+  return input;
+}
+
+/// The samples come by topics, or out of a recording of them.
+AgentInput prepare_topics(const InputOptions& options) {
+  AgentInput input = options.dataset.empty() ? describe_robot(options, options.calibration)
+                                             : prepare_dataset(options, Agent::kRobot);
+  input.open = nullptr;
+  input.knows_camera = !options.dataset.empty() || !options.calibration.empty();
+  input.live = true;
+  input.has_wearer_pose = false;
   return input;
 }
 
@@ -167,22 +200,21 @@ InputOptions read_input_options(const ConfigNode& node, Agent agent) {
     read_robot_options(node, options);
   }
   options.output = read_output(node);
-  require_one_source(node, options);
+  require_one_source(node, options, agent);
   return options;
 }
 
 AgentInput prepare_input(const InputOptions& options, Agent agent, const std::atomic<bool>& stop) {
+  if (options.topics || !options.recording.empty()) return prepare_topics(options);
   AgentInput input;
   if (!options.dataset.empty()) {
     input = prepare_dataset(options, agent);
   } else {
     const auto calibration = calibration_of(options);
-    input.camera = load_camera_model(calibration, options.camera);
     if (agent == Agent::kRobot) {
-      input.T_BS = load_body_extrinsics(calibration, options.camera);
-      if (!options.robot.lasers.empty()) input.lasers = read_laser_mountings(options.robot.lasers);
-      if (!options.robot.known_points.empty())
-        input.known_points = read_known_points(options.robot.known_points);
+      input = describe_robot(options, calibration);
+    } else {
+      input.camera = load_camera_model(calibration, options.camera);
     }
     FrameOutput output = options.output;
     output.width = input.camera.width;

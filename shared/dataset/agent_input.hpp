@@ -23,12 +23,16 @@ struct RobotFiles {
   std::filesystem::path known_points;
 };
 
-/// Where an agent's samples come from; the section `input` of its configuration. One of the first four.
+/// Where an agent's samples come from; the section `input` of its configuration. One of the first six; a
+/// dataset beside topics or a recording only says how the robot is built.
 struct InputOptions {
   std::filesystem::path dataset;  ///< a Cosight dataset folder, with everything in it
   std::filesystem::path images;   ///< csv, EuRoC or KITTI folder, or plain folder with rate_hz
   std::filesystem::path video;
-  std::filesystem::path device;  ///< /dev/video0
+  std::filesystem::path device;     ///< /dev/video0
+  bool topics = false;              ///< robot: what others publish of its sensors
+  std::filesystem::path recording;  ///< robot: an MCAP file with all that it and the wearer said
+  double end_after = 2.0;           ///< without a publisher of frames the topics have ended [s]; 0: never
 
   std::filesystem::path calibration;  ///< a dataset and an EuRoC folder have their own
   std::string camera = "cam0";        ///< its section in the calibration
@@ -50,9 +54,10 @@ InputOptions read_input_options(const ConfigNode& node, Agent agent);
 
 /// An input that has been looked at and can be opened, again for every lap of a loop.
 struct AgentInput {
-  SourceFactory open;
+  SourceFactory open;  ///< none for topics: those are the transport's
   CameraModel camera;
-  bool live = false;                     ///< a camera: comes at its own pace and can't be repeated
+  bool knows_camera = true;              ///< false: nobody said it yet
+  bool live = false;                     ///< a camera or topics: at their own pace, can't be repeated
   std::vector<KnownPoint> known_points;  ///< of a dataset, for the robot
   bool has_wearer_pose = false;          ///< it yields poses of the worn camera, for the robot
   std::optional<Pose> T_BS;              ///< of the camera in the robot's body; not known to all

@@ -57,6 +57,12 @@ const TopicProfile kRobotImageCompressed{.name = "rt/cosight/robot/image/compres
                                          .depth = kFrameDepth,
                                          .paced = true,
                                          .max_bytes = kLargestFrame};
+const TopicProfile kRobotImage{.name = "rt/cosight/robot/image",
+                               .kind = MessageKind::kImage,
+                               .frame_id = frames::kRobotCamera,
+                               .depth = kFrameDepth,
+                               .paced = true,
+                               .max_bytes = kLargestFrame};
 const TopicProfile kRobotCameraInfo{.name = "rt/cosight/robot/camera_info",
                                     .kind = MessageKind::kCameraInfo,
                                     .frame_id = frames::kRobotCamera,
@@ -138,6 +144,7 @@ std::span<const TopicProfile* const> all_topics() {
                                       &profiles::kWearableImu,
                                       &profiles::kWearableHeartbeat,
                                       &profiles::kRobotImageCompressed,
+                                      &profiles::kRobotImage,
                                       &profiles::kRobotCameraInfo,
                                       &profiles::kRobotLaserFront,
                                       &profiles::kRobotLaserRear,

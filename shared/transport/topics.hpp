@@ -64,6 +64,7 @@ extern const TopicProfile kWearableCameraInfo;
 extern const TopicProfile kWearableImu;
 extern const TopicProfile kWearableHeartbeat;
 extern const TopicProfile kRobotImageCompressed;
+extern const TopicProfile kRobotImage;
 extern const TopicProfile kRobotCameraInfo;
 extern const TopicProfile kRobotLaserFront;
 extern const TopicProfile kRobotLaserRear;
@@ -85,6 +86,7 @@ inline constexpr Topic<CameraInfoSample> kWearableCameraInfo{profiles::kWearable
 inline constexpr Topic<AhrsSample> kWearableImu{profiles::kWearableImu};
 inline constexpr Topic<HeartbeatSample> kWearableHeartbeat{profiles::kWearableHeartbeat};
 inline constexpr Topic<ImageSample> kRobotImageCompressed{profiles::kRobotImageCompressed};
+inline constexpr Topic<ImageSample> kRobotImage{profiles::kRobotImage};
 inline constexpr Topic<CameraInfoSample> kRobotCameraInfo{profiles::kRobotCameraInfo};
 inline constexpr Topic<LaserScanSample> kRobotLaserFront{profiles::kRobotLaserFront};
 inline constexpr Topic<LaserScanSample> kRobotLaserRear{profiles::kRobotLaserRear};

@@ -120,6 +120,27 @@ TEST_F(AgentInputTest, TheSameFilesBesideImages) {
       HasSubstr("input.laser_front: "));
 }
 
+TEST_F(AgentInputTest, BesideTopicsADatasetSaysOnlyHowTheRobotIsBuilt) {
+  make_dataset();
+  add_robot_sensors();
+  const auto bare = prepare_input(options({set("topics", "true")}, Agent::kRobot), Agent::kRobot, stop_);
+  EXPECT_TRUE(bare.live);
+  EXPECT_FALSE(bare.open);
+  EXPECT_FALSE(bare.knows_camera);
+  const auto built =
+      prepare_input(options({set("topics", "true"), set("dataset", folder_.string())}, Agent::kRobot),
+                    Agent::kRobot, stop_);
+  EXPECT_FALSE(built.open);
+  EXPECT_TRUE(built.knows_camera);
+  EXPECT_EQ(built.camera.width, 32);
+  EXPECT_EQ(built.lasers.size(), 1U);
+  EXPECT_FALSE(built.has_wearer_pose);
+  EXPECT_THAT(error_of<ConfigError>([&] {
+                options({set("topics", "true"), set("video", "b")}, Agent::kRobot);
+              }),
+              HasSubstr("only one of dataset, images, video, device, topics and recording"));
+}
+
 TEST_F(AgentInputTest, AWrongSizeAgainstTheCalibrationIsCounted) {
   make_dataset();
   write_frame("wearer/cam0/1.jpg", 0, 31, 24);

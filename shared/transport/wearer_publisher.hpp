@@ -7,7 +7,7 @@
 #include "shared/dataset/sample.hpp"
 #include "shared/transport/publisher.hpp"
 
-namespace cosight::wearable {
+namespace cosight::transport {
 
 struct SentCounters {
   std::uint64_t frames = 0;
@@ -17,10 +17,10 @@ struct SentCounters {
 };
 
 /// The wearable's topics. The camera info is latched: who comes later gets it too.
-class SamplePublisher {
+class WearerPublisher {
  public:
   /// Throws TransportError.
-  SamplePublisher(const transport::Participant& participant, ImageEncoding encoding);
+  WearerPublisher(const Participant& participant, ImageEncoding encoding);
 
   void publish(const CameraModel& camera, Stamp stamp);
   void publish(const Sample& sample);
@@ -35,9 +35,9 @@ class SamplePublisher {
   SentCounters sent() const;
 
  private:
-  transport::Publisher<ImageSample> images_;
-  transport::Publisher<AhrsSample> orientations_;
-  transport::Publisher<CameraInfoSample> camera_info_;
+  Publisher<ImageSample> images_;
+  Publisher<AhrsSample> orientations_;
+  Publisher<CameraInfoSample> camera_info_;
 };
 
-}  // namespace cosight::wearable
+}  // namespace cosight::transport

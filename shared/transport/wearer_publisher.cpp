@@ -1,31 +1,27 @@
-#include "wearable_agent/sample_publisher.hpp"
+#include "shared/transport/wearer_publisher.hpp"
 
-#include "shared/transport/topics.hpp"
+namespace cosight::transport {
 
-namespace cosight::wearable {
-
-namespace topics = transport::topics;
-
-SamplePublisher::SamplePublisher(const transport::Participant& participant, ImageEncoding encoding)
+WearerPublisher::WearerPublisher(const Participant& participant, ImageEncoding encoding)
     : images_(participant,
               encoding == ImageEncoding::kMono8 ? topics::kWearableImage : topics::kWearableImageCompressed),
       orientations_(participant, topics::kWearableImu),
       camera_info_(participant, topics::kWearableCameraInfo) {}
 
-void SamplePublisher::publish(const CameraModel& camera, Stamp stamp) {
+void WearerPublisher::publish(const CameraModel& camera, Stamp stamp) {
   camera_info_.publish({stamp, camera});
 }
 
-void SamplePublisher::publish(const Sample& sample) {
+void WearerPublisher::publish(const Sample& sample) {
   if (const auto* const image = std::get_if<ImageSample>(&sample)) images_.publish(*image);
   if (const auto* const orientation = std::get_if<AhrsSample>(&sample)) orientations_.publish(*orientation);
 }
 
-bool SamplePublisher::wait_for_frame_reader(std::chrono::milliseconds timeout) const {
+bool WearerPublisher::wait_for_frame_reader(std::chrono::milliseconds timeout) const {
   return images_.wait_for_readers(1, timeout);
 }
 
-bool SamplePublisher::wait_until_delivered(std::chrono::milliseconds timeout) {
+bool WearerPublisher::wait_until_delivered(std::chrono::milliseconds timeout) {
   const auto end = std::chrono::steady_clock::now() + timeout;
   const bool images = images_.wait_until_delivered(timeout);
   const auto left =
@@ -33,7 +29,7 @@ bool SamplePublisher::wait_until_delivered(std::chrono::milliseconds timeout) {
   return orientations_.wait_until_delivered(std::max(left, std::chrono::milliseconds{1})) && images;
 }
 
-SentCounters SamplePublisher::sent() const {
+SentCounters WearerPublisher::sent() const {
   SentCounters sent;
   const auto images = images_.counters();
   const auto orientations = orientations_.counters();
@@ -46,4 +42,4 @@ SentCounters SamplePublisher::sent() const {
   return sent;
 }
 
-}  // namespace cosight::wearable
+}  // namespace cosight::transport

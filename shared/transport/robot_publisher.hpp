@@ -1,0 +1,42 @@
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "shared/dataset/sample.hpp"
+#include "shared/transport/publisher.hpp"
+
+namespace cosight::transport {
+
+/// The robot's own sensors on their topics. The camera info is latched: who comes later gets it too.
+class RobotPublisher {
+ public:
+  /// `tracks_wearer`: it has poses of the worn camera to tell. Throws TransportError.
+  RobotPublisher(const Participant& participant, ImageEncoding encoding, bool tracks_wearer);
+
+  void publish(const CameraModel& camera, Stamp stamp);
+  void publish(const Sample& sample);
+
+  /// A reader of frames has matched.
+  bool wait_for_frame_reader(std::chrono::milliseconds timeout) const;
+
+  /// Every frame sent has been acknowledged, or the time is up.
+  bool wait_until_delivered(std::chrono::milliseconds timeout);
+
+  /// Of each topic, under the name of its section in a summary.
+  std::vector<std::pair<std::string_view, PublisherCounters>> counters() const;
+
+ private:
+  Publisher<ImageSample> frames_;
+  Publisher<CameraInfoSample> camera_info_;
+  Publisher<LaserScanSample> front_scans_;
+  Publisher<LaserScanSample> rear_scans_;
+  Publisher<ImuSample> imu_;
+  Publisher<WheelOdometrySample> odometry_;
+  std::optional<Publisher<WearerPoseSample>> poses_;
+};
+
+}  // namespace cosight::transport
