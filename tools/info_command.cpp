@@ -45,8 +45,8 @@ void run(const std::filesystem::path& path) {
             << "\", by \"" << contents.library << "\")\n";
   print_state(contents);
   std::cout << "duration:  " << std::setprecision(3) << to_seconds(contents.end - contents.start)
-            << " s, from " << contents.start << " ns\nmessages:  " << contents.messages << " in "
-            << contents.segments.size() << " chunks\n";
+            << " s, from " << contents.start << " to " << contents.end
+            << " ns\nmessages:  " << contents.messages << " in " << contents.segments.size() << " chunks\n";
   print_channels(reader);
   for (const auto& attachment : contents.attachments)
     std::cout << "attached:  " << attachment.name << " (" << attachment.bytes << " bytes)\n";

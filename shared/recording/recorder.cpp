@@ -18,7 +18,7 @@ using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 using transport::BlindTopic;
 
-constexpr milliseconds kLookForTopics{20};
+constexpr milliseconds kLookForTopics{50};
 constexpr milliseconds kTellProgress{500};
 constexpr milliseconds kFlush{200};
 constexpr milliseconds kLongestWait{25};

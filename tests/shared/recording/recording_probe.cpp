@@ -1,0 +1,108 @@
+// What scripts/experiments/recording measures of the files themselves:
+//
+//   recording_probe truncate FILE COUNT SEED   cuts it at COUNT random bytes; prints how often a whole chunk
+//   was missing recording_probe write FILE MEGABYTES       writes frames of 345 kB without compression;
+//   prints MB/s, on the disk
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <exception>
+#include <iostream>
+#include <memory>
+#include <random>
+#include <string>
+
+#include "shared/recording/file_bytes.hpp"
+#include "shared/recording/mcap_reader.hpp"
+#include "shared/recording/mcap_writer.hpp"
+
+namespace {
+
+using namespace cosight::recording;  // NOLINT(google-build-using-namespace): a program's own file
+
+/// The beginning of a file.
+class CutSource : public ByteSource {
+ public:
+  CutSource(const ByteSource& whole, std::uint64_t size) : whole_(whole), size_(size) {}
+
+  std::uint64_t size() const override { return size_; }
+  std::size_t read(std::uint64_t offset, std::span<std::uint8_t> into) const override {
+    if (offset >= size_) return 0;
+    return whole_.read(offset, into.first(std::min<std::uint64_t>(into.size(), size_ - offset)));
+  }
+  std::string name() const override { return whole_.name(); }
+
+ private:
+  const ByteSource& whole_;
+  std::uint64_t size_;
+};
+
+std::uint64_t messages_in(const McapReader& reader) {
+  std::uint64_t messages = 0;
+  MessageCursor cursor = reader.messages({}, MessageOrder::kFile);
+  while (cursor.next())
+    ++messages;
+  return messages;
+}
+
+/// Messages of the chunks that end before `size`.
+std::uint64_t promised(const McapReader& whole, std::uint64_t size) {
+  McapContents contents = whole.contents();
+  std::erase_if(contents.segments, [size](const Segment& s) { return s.offset + s.length > size; });
+  MessageCursor cursor(whole.source(), contents, {}, {}, MessageOrder::kFile);
+  std::uint64_t messages = 0;
+  while (cursor.next())
+    ++messages;
+  return messages;
+}
+
+int truncate_at_random(const std::string& path, int count, unsigned seed) {
+  const McapReader whole{std::filesystem::path(path)};
+  std::mt19937_64 random(seed);
+  int failures = 0;
+  for (int i = 0; i < count; ++i) {
+    const std::uint64_t size = random() % whole.source().size();
+    const McapReader cut(std::make_unique<CutSource>(whole.source(), size));
+    if (messages_in(cut) < promised(whole, size)) ++failures;
+  }
+  std::cout << failures << '\n';
+  return failures == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+}
+
+int write_frames(const std::string& path, double megabytes) {
+  Bytes frame(345'600);
+  std::mt19937 random(1);
+  std::generate(frame.begin(), frame.end(), [&random] { return static_cast<std::uint8_t>(random()); });
+  const auto count = static_cast<std::uint32_t>(megabytes * 1e6 / static_cast<double>(frame.size()));
+  const auto began = std::chrono::steady_clock::now();
+  FileSink sink(path);
+  McapWriter writer(sink, {.compression = Compression::kNone});
+  const ChannelId channel = writer.add_channel("/frames", "cdr", 0);
+  for (std::uint32_t i = 0; i < count; ++i)
+    writer.write(Message{channel, i, i, i, frame});
+  writer.close();  // waits for the disk
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - began;
+  std::cout << static_cast<double>(writer.bytes_written()) / 1e6 / elapsed.count() << '\n';
+  return EXIT_SUCCESS;
+}
+
+int run(int argc, char** argv) {
+  const std::string command = argc > 1 ? argv[1] : "";
+  if (command == "truncate" && argc == 5)
+    return truncate_at_random(argv[2], std::atoi(argv[3]), static_cast<unsigned>(std::atoi(argv[4])));
+  if (command == "write" && argc == 4) return write_frames(argv[2], std::atof(argv[3]));
+  std::cerr << "recording_probe: truncate FILE COUNT SEED, or write FILE MEGABYTES\n";
+  return 2;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
+    std::cerr << "recording_probe: " << error.what() << '\n';
+    return EXIT_FAILURE;
+  }
+}
