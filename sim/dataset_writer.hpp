@@ -10,6 +10,7 @@
 #include "shared/dataset/known_point.hpp"
 #include "shared/dataset/sample.hpp"
 #include "shared/geometry/pose.hpp"
+#include "sim/render/view_overlap.hpp"
 #include "sim/scenario.hpp"
 
 namespace cosight::sim {
@@ -24,13 +25,6 @@ class DatasetError : public std::runtime_error {
 struct TimedPose {
   Stamp stamp = 0;
   Pose T;
-};
-
-/// How much the cameras see of each other's places at one frame.
-struct OverlapTruth {
-  Stamp stamp = 0;
-  double share_of_S = 0.0;  ///< of Cs' picture that Cf sees as well, 0 … 1
-  double share_of_F = 0.0;
 };
 
 /// A csv or text file that is complete on disk when it is closed, or else an error.

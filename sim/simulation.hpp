@@ -1,10 +1,9 @@
 #pragma once
 
 #include <atomic>
-#include <cstdint>
 #include <filesystem>
 
-#include "sim/scenario.hpp"
+#include "sim/simulated_run.hpp"
 
 namespace cosight::sim {
 
@@ -24,8 +23,12 @@ struct RunReport {
   bool stopped = false;
 };
 
-/// Renders the scenario into a Cosight dataset folder. `stop` ends it early (the folder is then incomplete).
-/// Throws DatasetError, or std::invalid_argument for a scenario that cannot be built.
+/// Renders the run into a Cosight dataset folder. `stop` ends it early (the folder is then incomplete).
+/// Throws DatasetError.
+RunReport write_dataset(const SimulatedRun& run, const RunOptions& options,
+                        const std::filesystem::path& folder, const std::atomic<bool>& stop);
+
+/// The same for a scenario; throws std::invalid_argument for one that cannot be built.
 RunReport write_dataset(const Scenario& scenario, const RunOptions& options,
                         const std::filesystem::path& folder, const std::atomic<bool>& stop);
 

@@ -11,7 +11,7 @@ using std::chrono::milliseconds;
 constexpr milliseconds kSlice{50};
 
 // Samples that nobody asks for: the robot may wait for its wearer, and then wants to see what is now.
-constexpr std::chrono::seconds kKept{1};
+constexpr std::chrono::seconds kKept{3};
 
 }  // namespace
 

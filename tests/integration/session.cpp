@@ -121,6 +121,15 @@ Session::Process Session::wearer(const fs::path& dataset, const Arguments& more)
                more);
 }
 
+Session::Process Session::robot_on_topics(const Arguments& more) {
+  return start(ROBOT_AGENT, "robot",
+               {"--from-topics", "--run-dir", run_folder().string(), "--set", "input.end_after_s=1"}, more);
+}
+
+Session::Process Session::live_scene(const Arguments& more) {
+  return start(SIM, "sim", {"--config", small_scene_file().string(), "--live", "--seed", "1"}, more);
+}
+
 Session::Process Session::start(const std::string& program, const std::string& name, Arguments arguments,
                                 const Arguments& more) {
   const Arguments apart{"--domain", std::to_string(private_domain()), "--set", "dds.interfaces=[lo]"};

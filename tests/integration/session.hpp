@@ -63,6 +63,12 @@ class Session : public testing::Test {
   Process robot(const std::filesystem::path& dataset, const Arguments& more = {});
   Process wearer(const std::filesystem::path& dataset, const Arguments& more = {});
 
+  /// A robot that has its sensors, and all that it knows of them, from topics.
+  Process robot_on_topics(const Arguments& more = {});
+
+  /// The small scene, live: what both agents' sensors say, on the session's domain.
+  Process live_scene(const Arguments& more = {});
+
   const std::filesystem::path& run_folder() const { return run_folder_; }
   void write_into(const std::filesystem::path& run_folder) { run_folder_ = run_folder; }
   RunFiles run_files() const { return RunFiles(run_folder()); }

@@ -90,6 +90,10 @@ const fs::path& small_scene() {
   return dataset;
 }
 
+fs::path small_scene_file() {
+  return small_scene().parent_path() / "scene.yaml";
+}
+
 void copy_small_scene(const fs::path& to) {
   fs::copy(small_scene(), to, fs::copy_options::recursive);
 }

@@ -13,6 +13,9 @@ constexpr int kFrames = 41;
 /// Renders a corridor for both agents, once a process; where it is.
 const std::filesystem::path& small_scene();
 
+/// What it was rendered from.
+std::filesystem::path small_scene_file();
+
 /// A copy of the small scene that a test may spoil.
 void copy_small_scene(const std::filesystem::path& to);
 
