@@ -4,6 +4,8 @@
 
 #include "tools/aggregate_command.hpp"
 #include "tools/evaluate_command.hpp"
+#include "tools/export_command.hpp"
+#include "tools/import_command.hpp"
 #include "tools/info_command.hpp"
 #include "tools/prepare_command.hpp"
 #include "tools/record_command.hpp"
@@ -28,6 +30,8 @@ int run(int argc, char** argv) {
   cosight::add_replay_command(program);
   cosight::add_info_command(program);
   cosight::add_recover_command(program);
+  cosight::add_import_command(program);
+  cosight::add_export_command(program);
   try {
     program.parse(argc, argv);
   } catch (const CLI::RuntimeError& error) {

@@ -23,29 +23,29 @@ struct FieldType {
 
 /// ROS 2's name of a primitive type, which may be up to three words long.
 std::optional<std::string> primitive(const std::string& idl) {
-  static const std::map<std::string, std::string> kNames = {{"boolean", "bool"},
-                                                            {"octet", "uint8"},
-                                                            {"char", "uint8"},
-                                                            {"int8", "int8"},
-                                                            {"uint8", "uint8"},
-                                                            {"int16", "int16"},
-                                                            {"uint16", "uint16"},
-                                                            {"int32", "int32"},
-                                                            {"uint32", "uint32"},
-                                                            {"int64", "int64"},
-                                                            {"uint64", "uint64"},
-                                                            {"float", "float32"},
-                                                            {"double", "float64"},
-                                                            {"short", "int16"},
-                                                            {"long", "int32"},
-                                                            {"long long", "int64"},
-                                                            {"unsigned short", "uint16"},
-                                                            {"unsigned long", "uint32"},
-                                                            {"unsigned long long", "uint64"},
-                                                            {"string", "string"},
-                                                            {"wstring", "wstring"}};
-  const auto found = kNames.find(idl);
-  return found == kNames.end() ? std::nullopt : std::optional(found->second);
+  static const std::map<std::string, std::string> names = {{"boolean", "bool"},
+                                                           {"octet", "uint8"},
+                                                           {"char", "uint8"},
+                                                           {"int8", "int8"},
+                                                           {"uint8", "uint8"},
+                                                           {"int16", "int16"},
+                                                           {"uint16", "uint16"},
+                                                           {"int32", "int32"},
+                                                           {"uint32", "uint32"},
+                                                           {"int64", "int64"},
+                                                           {"uint64", "uint64"},
+                                                           {"float", "float32"},
+                                                           {"double", "float64"},
+                                                           {"short", "int16"},
+                                                           {"long", "int32"},
+                                                           {"long long", "int64"},
+                                                           {"unsigned short", "uint16"},
+                                                           {"unsigned long", "uint32"},
+                                                           {"unsigned long long", "uint64"},
+                                                           {"string", "string"},
+                                                           {"wstring", "wstring"}};
+  const auto found = names.find(idl);
+  return found == names.end() ? std::nullopt : std::optional(found->second);
 }
 
 /// "geometry_msgs/Point" for "geometry_msgs/msg/Point": how a field says it.
@@ -216,7 +216,7 @@ class IdlParser {
 
   std::string parse_bound() {
     if (!take_if("<")) return "";
-    const std::string bound = "<=" + take();
+    std::string bound = "<=" + take();
     expect(">");
     return bound;
   }
