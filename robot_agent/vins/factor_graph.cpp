@@ -30,7 +30,7 @@ void FactorGraph::add_visual_terms(GraphScope scope) {
     const bool from_oldest = landmark.observations.front().frame == window_.frames.front().id;
     if (scope == GraphScope::kOldestFrame && !from_oldest) continue;
     landmark_ids_.push_back(id);
-    lambdas_.push_back(landmark.lambda);
+    landmarks_.push_back({landmark.lambda, landmark.beside.x(), landmark.beside.y()});
     add_landmark(landmark);
   }
 }
@@ -40,13 +40,16 @@ void FactorGraph::add_landmark(const Landmark& landmark) {
   const std::size_t host = window_.slot(first.frame);
   FeatureRecord feature{.times_tracked = landmark.times_tracked};
   if (window_.typical_misfit > 0.0) feature.relative_misfit = landmark.misfit / window_.typical_misfit;
+  feature.geometry_factor = window_.frames[host].geometry_factor;
+  const Trust of_host = trust(options_.trust, feature);
+  hosts_.emplace_back(of_host.sqrt_information, loss(of_host));
   for (std::size_t k = 1; k < landmark.observations.size(); ++k) {
     const Observation& seen = landmark.observations[k];
     const std::size_t target = window_.slot(seen.frame);
     feature.geometry_factor = window_.frames[target].geometry_factor;
     const Trust how = trust(options_.trust, feature);
-    visual_.emplace_back(first.sighting, seen.sighting, how.sqrt_information, loss(how), lambdas_.size() - 1,
-                         host, target);
+    visual_.emplace_back(first.sighting, seen.sighting, how.sqrt_information, loss(how),
+                         landmarks_.size() - 1, host, target);
   }
 }
 
@@ -102,8 +105,8 @@ std::vector<StateKey> FactorGraph::free_states() const {
 }
 
 std::array<double*, 5> FactorGraph::blocks(const VisualTerm& term) {
-  return {poses_[term.host].data(), poses_[term.target].data(), extrinsics_.data(), &lambdas_[term.landmark],
-          &time_offset_};
+  return {poses_[term.host].data(), poses_[term.target].data(), extrinsics_.data(),
+          landmarks_[term.landmark].data(), &time_offset_};
 }
 
 std::array<StateKey, 2> FactorGraph::pose_keys(const VisualTerm& term) const {
@@ -132,8 +135,11 @@ void FactorGraph::write_back(Window& window) const {
   }
   window.T_BS = to_pose(extrinsics_.data());
   window.time_offset = time_offset_;
-  for (std::size_t l = 0; l < lambdas_.size(); ++l)
-    window.landmarks[landmark_ids_[l]].lambda = lambdas_[l];
+  for (std::size_t l = 0; l < landmarks_.size(); ++l) {
+    Landmark& landmark = window.landmarks[landmark_ids_[l]];
+    landmark.lambda = landmarks_[l][0];
+    landmark.beside = {landmarks_[l][1], landmarks_[l][2]};
+  }
 }
 
 }  // namespace cosight::vins

@@ -35,20 +35,25 @@ enum class GraphScope {
 /// callers hold addresses into it. `window` must outlive it and its prior and increments stay as they are.
 class FactorGraph {
  public:
-  /// A sighting's factor. Blocks: pose of host, pose of target, extrinsics, lambda, time offset.
+  /// A sighting's factor. Blocks: pose of host, pose of target, extrinsics, landmark, time offset.
   struct VisualTerm {
     VisualTerm(const Sighting& first, const Sighting& now, double sqrt_information,
-               const ceres::LossFunction* kernel, std::size_t lambda_index, std::size_t from, std::size_t to)
-        : factor(first, now, sqrt_information),
-          loss(kernel),
-          landmark(lambda_index),
-          host(from),
-          target(to) {}
+               const ceres::LossFunction* kernel, std::size_t index, std::size_t from, std::size_t to)
+        : factor(first, now, sqrt_information), loss(kernel), landmark(index), host(from), target(to) {}
 
     ReprojectionFactor factor;
     const ceres::LossFunction* loss;  ///< may be null
-    std::size_t landmark;             ///< index of lambda
+    std::size_t landmark;             ///< index
     std::size_t host, target;         ///< slots
+  };
+
+  /// What a landmark's first sighting says, and with it that all its others follow.
+  struct HostTerm {
+    HostTerm(double sqrt_information, const ceres::LossFunction* kernel)
+        : factor(sqrt_information), loss(kernel) {}
+
+    HostFactor factor;
+    const ceres::LossFunction* loss;  ///< may be null
   };
 
   FactorGraph(const Window& window, const GraphOptions& options, GraphScope scope);
@@ -57,8 +62,9 @@ class FactorGraph {
   ~FactorGraph() = default;
 
   double* block(StateKey key);
-  double* lambda(std::size_t landmark) { return &lambdas_[landmark]; }
-  std::size_t landmark_count() const { return lambdas_.size(); }
+  double* landmark(std::size_t index) { return landmarks_[index].data(); }
+  std::size_t landmark_count() const { return landmarks_.size(); }
+  const HostTerm& host_term(std::size_t index) const { return hosts_[index]; }
 
   /// States that some factor touches and that are to be estimated, in a fixed order.
   std::vector<StateKey> free_states() const;
@@ -95,7 +101,8 @@ class FactorGraph {
   std::vector<MotionBlock> motions_;
   PoseBlock extrinsics_;
   double time_offset_;
-  std::vector<double> lambdas_;
+  std::vector<LandmarkBlock> landmarks_;
+  std::deque<HostTerm> hosts_;  ///< one a landmark
   std::vector<FeatureId> landmark_ids_;
   std::deque<VisualTerm> visual_;
   std::deque<ImuTerm> imu_;

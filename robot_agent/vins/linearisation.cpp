@@ -1,5 +1,6 @@
 #include "robot_agent/vins/linearisation.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -50,21 +51,41 @@ void add_factor(const ceres::CostFunction& factor, const std::vector<StateKey>& 
   accumulate(tangent, columns, r, system);
 }
 
-/// A landmark's own corner of the normal equations, to be taken out at once: it is a single number.
-struct LandmarkCorner {
-  double H = 0.0;
-  double b = 0.0;
-  VectorXd cross;  ///< with every state
+double kernel_root(const ceres::LossFunction* loss, const Eigen::Vector2d& r) {
+  if (loss == nullptr) return 1.0;
+  std::array<double, 3> rho{};
+  loss->Evaluate(r.squaredNorm(), rho.data());
+  return std::sqrt(rho[1]);
+}
 
-  explicit LandmarkCorner(Index size) : cross(VectorXd::Zero(size)) {}
+/// A landmark's own corner of the normal equations, to be taken out at once.
+struct LandmarkCorner {
+  Eigen::Matrix3d H = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d b = Eigen::Vector3d::Zero();
+  Eigen::Matrix<double, Eigen::Dynamic, 3> cross;  ///< of every state with the landmark
+
+  explicit LandmarkCorner(Index size) : cross(size, 3) { cross.setZero(); }
+
+  void add_host(const FactorGraph::HostTerm& term, const double* landmark) {
+    Eigen::Vector2d r;
+    RowMajor<2, 3> J;
+    double* jacobian = J.data();
+    term.factor.Evaluate(&landmark, r.data(), &jacobian);
+    const double weight = std::pow(kernel_root(term.loss, r), 2);
+    H += weight * J.transpose() * J;
+    b += weight * J.transpose() * r;
+  }
 
   void eliminate(NormalEquations& system) {
     constexpr double kMinInformation = 1e-12;
-    if (H > kMinInformation) {
-      system.H.noalias() -= cross * cross.transpose() / H;
-      system.b.noalias() -= cross * (b / H);
+    if (H(0, 0) > kMinInformation) {
+      const Eigen::LLT<Eigen::Matrix3d> llt(H);
+      const Eigen::Matrix<double, 3, Eigen::Dynamic> half = llt.matrixL().solve(cross.transpose());
+      system.H.noalias() -= half.transpose() * half;
+      system.b.noalias() -= half.transpose() * llt.matrixL().solve(b);
     }
-    H = b = 0.0;
+    H.setZero();
+    b.setZero();
     cross.setZero();
   }
 };
@@ -78,31 +99,26 @@ void add_visual(const FactorGraph::VisualTerm& term, FactorGraph& graph, const S
                                      layout.column({StateKind::kTimeOffset, 0})};
   std::array<RowMajor<2, 7>, 3> J_pose;
   Eigen::Vector2d r;
-  Eigen::Vector2d J_lambda;
+  RowMajor<2, 3> J_landmark;
   Eigen::Vector2d J_offset;
-  std::array<double*, 5> jacobians{J_pose[0].data(), J_pose[1].data(), J_pose[2].data(), J_lambda.data(),
+  std::array<double*, 5> jacobians{J_pose[0].data(), J_pose[1].data(), J_pose[2].data(), J_landmark.data(),
                                    J_offset.data()};
   term.factor.Evaluate(blocks.data(), r.data(), jacobians.data());
-  double root = 1.0;
-  if (term.loss != nullptr) {
-    std::array<double, 3> rho{};
-    term.loss->Evaluate(r.squaredNorm(), rho.data());
-    root = std::sqrt(rho[1]);
-  }
+  const double root = kernel_root(term.loss, r);
   Eigen::Matrix<double, 2, 19> J;
   J << J_pose[0].leftCols<6>(), J_pose[1].leftCols<6>(), J_pose[2].leftCols<6>(), J_offset;
   J *= root;
   r *= root;
-  J_lambda *= root;
-  corner.H += J_lambda.squaredNorm();
-  corner.b += J_lambda.dot(r);
+  J_landmark *= root;
+  corner.H += J_landmark.transpose() * J_landmark;
+  corner.b += J_landmark.transpose() * r;
   constexpr std::array<Index, 4> kStart{0, 6, 12, 18};
   constexpr std::array<Index, 4> kSize{6, 6, 6, 1};
   for (std::size_t a = 0; a < 4; ++a) {
     if (columns[a] < 0) continue;
     const auto J_a = J.middleCols(kStart[a], kSize[a]);
     system.b.segment(columns[a], kSize[a]) += J_a.transpose() * r;
-    corner.cross.segment(columns[a], kSize[a]) += J_a.transpose() * J_lambda;
+    corner.cross.middleRows(columns[a], kSize[a]) += J_a.transpose() * J_landmark;
     for (std::size_t c = 0; c < 4; ++c) {
       if (columns[c] < 0) continue;
       system.H.block(columns[a], columns[c], kSize[a], kSize[c]) +=
@@ -116,16 +132,16 @@ void add_visual(const FactorGraph::VisualTerm& term, FactorGraph& graph, const S
 NormalEquations linearise(FactorGraph& graph, const StateLayout& layout) {
   NormalEquations system{MatrixXd::Zero(layout.size(), layout.size()), VectorXd::Zero(layout.size())};
   LandmarkCorner corner(layout.size());
-  std::size_t landmark = 0;
-  for (const auto& term : graph.visual_terms()) {
-    if (term.landmark != landmark) corner.eliminate(system);
-    landmark = term.landmark;
-    add_visual(term, graph, layout, system, corner);
+  auto term = graph.visual_terms().begin();
+  for (std::size_t l = 0; l < graph.landmark_count(); ++l) {
+    corner.add_host(graph.host_term(l), graph.landmark(l));
+    for (; term != graph.visual_terms().end() && term->landmark == l; ++term)
+      add_visual(*term, graph, layout, system, corner);
+    corner.eliminate(system);
   }
-  corner.eliminate(system);
-  for (const auto& term : graph.imu_terms()) {
-    const auto keys = graph.keys(term);
-    add_factor(term.factor, {keys.begin(), keys.end()}, graph, layout, system);
+  for (const auto& imu : graph.imu_terms()) {
+    const auto keys = graph.keys(imu);
+    add_factor(imu.factor, {keys.begin(), keys.end()}, graph, layout, system);
   }
   if (graph.prior() != nullptr) add_factor(*graph.prior(), graph.prior_keys(), graph, layout, system);
   return system;

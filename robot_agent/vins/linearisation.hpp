@@ -34,8 +34,8 @@ class StateLayout {
   Eigen::Index first_size_ = 0;
 };
 
-/// All factors of a graph at its present parameters; the landmarks are taken out at once, each being a single
-/// number. A kernel weighs its residual by sqrt(rho'), which keeps H positive semidefinite.
+/// All factors of a graph at its present parameters; the landmarks are taken out at once, one by
+/// one. A kernel weighs its residual by sqrt(rho'), which keeps H positive semidefinite.
 NormalEquations linearise(FactorGraph& graph, const StateLayout& layout);
 
 }  // namespace cosight::vins

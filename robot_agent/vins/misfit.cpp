@@ -10,7 +10,7 @@ namespace {
 double misfit(const Window& window, const Landmark& landmark) {
   const Observation& host = landmark.observations.front();
   const Pose T_WSi = window.T_WS(window.slot(host.frame));
-  const Eigen::Vector3d f_i = host.sighting.bearing(window.time_offset);
+  const Eigen::Vector3d f_i = window.ray(landmark);
   double squares = 0.0;
   int count = 0;
   for (std::size_t k = 1; k < landmark.observations.size(); ++k) {

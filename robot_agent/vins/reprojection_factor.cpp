@@ -42,6 +42,19 @@ Eigen::Matrix<double, 2, 3> tangent_basis(const Vector3d& f) {
   return basis;
 }
 
+Vector3d host_bearing(const Sighting& first, const Eigen::Vector2d& beside, double offset) {
+  return (first.bearing(offset) + tangent_basis(first.bearing(0.0)).transpose() * beside).normalized();
+}
+
+bool HostFactor::Evaluate(double const* const* parameters, double* residuals, double** jacobians) const {
+  residuals[0] = sqrt_information_ * parameters[0][1];
+  residuals[1] = sqrt_information_ * parameters[0][2];
+  if (jacobians == nullptr || jacobians[0] == nullptr) return true;
+  Eigen::Map<Eigen::Matrix<double, 2, 3, Eigen::RowMajor>> J(jacobians[0]);
+  J << 0.0, sqrt_information_, 0.0, 0.0, 0.0, sqrt_information_;
+  return true;
+}
+
 ReprojectionFactor::ReprojectionFactor(const Sighting& first, const Sighting& now, double sqrt_information)
     : first_(first), now_(now), weighted_tangent_(sqrt_information * tangent_basis(now.bearing(0.0))) {}
 
@@ -56,7 +69,10 @@ bool ReprojectionFactor::Evaluate(double const* const* parameters, double* resid
   const Matrix3d R_i = T_WBi.q.toRotationMatrix();
   const Matrix3d R_j = T_WBj.q.toRotationMatrix();
   const Matrix3d R_BS = T_BS.q.toRotationMatrix();
-  const Vector3d f_i = first_.bearing(offset);
+  const Matrix23 tangent_i = tangent_basis(first_.bearing(0.0));
+  const Vector3d ray_i =
+      first_.bearing(offset) + tangent_i.transpose() * Eigen::Map<const Eigen::Vector2d>(parameters[3] + 1);
+  const Vector3d f_i = ray_i.normalized();
   const Vector3d h_Bi = R_BS * f_i + lambda * T_BS.p;
   const Vector3d h_Bj = R_j.transpose() * (R_i * h_Bi + lambda * (T_WBi.p - T_WBj.p));
   const Vector3d h_Sj = R_BS.transpose() * (h_Bj - lambda * T_BS.p);
@@ -74,12 +90,14 @@ bool ReprojectionFactor::Evaluate(double const* const* parameters, double* resid
     fill_pose(jacobians[2], lambda * (d_Bi - d_Bj), d_h * skew(h_Sj) - d_Bi * R_BS * skew(f_i));
   }
   if (jacobians[3] != nullptr) {
-    Eigen::Map<Eigen::Vector2d>(jacobians[3]).noalias() =
-        d_Bi * T_BS.p + d_W * (T_WBi.p - T_WBj.p) - d_Bj * T_BS.p;
+    Eigen::Map<Eigen::Matrix<double, 2, 3, Eigen::RowMajor>> J(jacobians[3]);
+    J.col(0) = d_Bi * T_BS.p + d_W * (T_WBi.p - T_WBj.p) - d_Bj * T_BS.p;
+    J.rightCols<2>() = d_Bi * R_BS * normalisation(ray_i) * tangent_i.transpose();
   }
   if (jacobians[4] != nullptr) {
     Eigen::Map<Eigen::Vector2d>(jacobians[4]).noalias() =
-        d_Bi * R_BS * bearing_rate(first_, offset) - weighted_tangent_ * bearing_rate(now_, offset);
+        d_Bi * R_BS * normalisation(ray_i) * bearing_rate(first_, offset) -
+        weighted_tangent_ * bearing_rate(now_, offset);
   }
   return true;
 }

@@ -21,17 +21,18 @@ bool is_tracked(const Landmark& landmark, FrameId newest) {
 
 /// The landmark gets its next observation's frame as host; its depth moves along.
 void lose_host(Landmark& landmark, const Window& window) {
-  const Observation old_host = landmark.observations.front();
+  const Pose T_WS_old = window.T_WS(window.slot(landmark.observations.front().frame));
+  const Eigen::Vector3d ray = window.ray(landmark);
   landmark.observations.erase(landmark.observations.begin());
   if (!landmark.has_depth || landmark.observations.empty()) return;
-  const Pose T_WS_old = window.T_WS(window.slot(old_host.frame));
   const Pose T_WS_new = window.T_WS(window.slot(landmark.observations.front().frame));
   // Times lambda, as in the reprojection factor.
   const Pose T = T_WS_new.inverse() * T_WS_old;
-  const Eigen::Vector3d h = T.q * old_host.sighting.bearing(window.time_offset) + landmark.lambda * T.p;
-  const bool in_front = h.dot(landmark.observations.front().sighting.bearing(window.time_offset)) > 0.0;
-  landmark.has_depth = in_front;
+  const Eigen::Vector3d h = T.q * ray + landmark.lambda * T.p;
+  const Eigen::Vector3d seen = landmark.observations.front().sighting.bearing(window.time_offset);
+  landmark.has_depth = h.dot(seen) > 0.0;
   landmark.lambda /= h.norm();
+  landmark.beside = tangent_basis(seen) * (h / h.dot(seen));
 }
 
 void erase_unseen(Window& window) {
@@ -119,6 +120,7 @@ int drop_failed_landmarks(Window& window, const WindowOptions& options) {
     landmark.observations.erase(landmark.observations.begin(),
                                 landmark.observations.end() - (tracked ? 1 : 0));
     landmark.has_depth = false;
+    landmark.beside.setZero();
   }
   erase_unseen(window);
   return dropped;

@@ -33,6 +33,7 @@ void triangulate_all(Window& window, std::size_t min_observations, double defaul
   for (auto& [id, landmark] : window.landmarks) {
     if (landmark.has_depth || landmark.observations.size() < min_observations) continue;
     landmark.lambda = triangulate(window, landmark).value_or(1.0 / default_distance);
+    landmark.beside.setZero();
     landmark.has_depth = true;
   }
 }

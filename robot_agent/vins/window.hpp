@@ -35,10 +35,12 @@ struct Observation {
   int times_tracked = 1;  ///< N when this frame saw it, itself included
 };
 
-/// A point seen from several frames of the window; its state is the inverse distance along its first bearing.
+/// A point seen from several frames of the window; its state is a bearing near its first
+/// sighting and the inverse distance along it.
 struct Landmark {
-  std::vector<Observation> observations;  ///< in the order of the frames; the first is the host
-  double lambda = 0.0;                    ///< [1/m]
+  std::vector<Observation> observations;             ///< in the order of the frames; the first is the host
+  double lambda = 0.0;                               ///< [1/m]
+  Eigen::Vector2d beside = Eigen::Vector2d::Zero();  ///< of the first sighting, see LandmarkBlock [rad]
   bool has_depth = false;
   int times_tracked = 0;  ///< N: frames that ever saw it, also those that left the window
   double misfit = 0.0;    ///< see misfit.hpp [rad]; zero: not known
@@ -63,6 +65,11 @@ struct Window {
 
   std::size_t slot(FrameId id) const;  ///< position in `frames` of a frame that is there
   Pose T_WS(std::size_t slot) const { return frames[slot].state.T_WB * T_BS; }
+
+  /// Unit vector towards a landmark in the axes of the camera that saw it first.
+  Eigen::Vector3d ray(const Landmark& landmark) const {
+    return host_bearing(landmark.observations.front().sighting, landmark.beside, time_offset);
+  }
 
   /// Adds the observations of the newest frame, which must already be in `frames`.
   void add_observations(const FeatureFrame& frame);

@@ -39,6 +39,11 @@ void add_factors(FactorGraph& graph, ceres::Problem& problem) {
     problem.AddResidualBlock(lent(term.factor), const_cast<ceres::LossFunction*>(term.loss), blocks.data(),
                              static_cast<int>(blocks.size()));
   }
+  for (std::size_t l = 0; l < graph.landmark_count(); ++l) {
+    const auto& term = graph.host_term(l);
+    problem.AddResidualBlock(lent(term.factor), const_cast<ceres::LossFunction*>(term.loss),
+                             graph.landmark(l));
+  }
   for (const auto& term : graph.imu_terms()) {
     std::array<double*, 4> blocks{};
     const auto keys = graph.keys(term);
@@ -58,7 +63,7 @@ void add_factors(FactorGraph& graph, ceres::Problem& problem) {
 std::shared_ptr<ceres::ParameterBlockOrdering> ordering(FactorGraph& graph, const Window& window) {
   auto order = std::make_shared<ceres::ParameterBlockOrdering>();
   for (std::size_t l = 0; l < graph.landmark_count(); ++l)
-    order->AddElementToGroup(graph.lambda(l), 0);
+    order->AddElementToGroup(graph.landmark(l), 0);
   for (const WindowFrame& frame : window.frames) {
     order->AddElementToGroup(graph.block({StateKind::kPose, frame.id}), 1);
     order->AddElementToGroup(graph.block({StateKind::kMotion, frame.id}), 1);

@@ -53,7 +53,7 @@ Blocks reprojection_blocks(unsigned seed, double lambda) {
   return {as_vector(pose_block(drive.state(1.0).T_WB)),
           as_vector(pose_block(drive.state(1.3).T_WB)),
           as_vector(pose_block(drive.T_BS())),
-          {lambda},
+          {lambda, 0.002, -0.001},
           {0.004}};
 }
 
@@ -106,6 +106,7 @@ TEST(ReprojectionFactor, IsZeroWhereTheLandmarkReallyIs) {
       const double distance = ray_j.cross(b).norm() / ray_j.cross(ray_i).norm();
       const ReprojectionFactor factor(first.sighting, now.sighting, 300.0);
       Blocks blocks = reprojection_blocks(5, 1.0 / distance);
+      blocks[3] = {1.0 / distance, 0.0, 0.0};
       blocks[4][0] = 0.0;
       EXPECT_LT(evaluate(factor, blocks).norm(), 1e-9);
       ++checked;
@@ -114,12 +115,27 @@ TEST(ReprojectionFactor, IsZeroWhereTheLandmarkReallyIs) {
   EXPECT_GT(checked, 20);
 }
 
+TEST_P(FactorJacobian, OfAFirstSightingMatchesCentralDifferences) {
+  const HostFactor factor(300.0);
+  const Blocks blocks{{0.1, 0.002 * GetParam(), -0.001}};
+  EXPECT_LT(relative_difference(jacobians(factor, blocks, 0)), 1e-9);
+}
+
+TEST(HostBearing, MovesInTheTangentPlaneOfTheFirstSighting) {
+  Sighting first;
+  first.point = {0.3, -0.2};
+  EXPECT_LT((host_bearing(first, {0.0, 0.0}, 0.0) - first.bearing(0.0)).norm(), 1e-12);
+  const Eigen::Vector3d moved = host_bearing(first, {0.003, 0.004}, 0.0);
+  EXPECT_NEAR(moved.cross(first.bearing(0.0)).norm(), std::sin(std::atan(0.005)), 1e-9);
+  EXPECT_LT((tangent_basis(first.bearing(0.0)) * moved - Eigen::Vector2d(0.003, 0.004)).norm(), 1e-6);
+}
+
 TEST(ReprojectionFactor, MeasuresAnglesInUnitsOfTheirDeviation) {
   const Pose origin;
   const Blocks blocks{as_vector(pose_block(origin)),
                       as_vector(pose_block(origin)),
                       as_vector(pose_block(origin)),
-                      {0.1},
+                      {0.1, 0.0, 0.0},
                       {0.0}};
   const double angle = 0.01;
   const ReprojectionFactor factor({{0.0, 0.0}, {}}, {{std::tan(angle), 0.0}, {}}, 300.0);

@@ -66,7 +66,7 @@ std::vector<std::pair<Stamp, std::string>> read_images(const std::filesystem::pa
 VinsOptions euroc_options() {
   VinsOptions options;
   options.noise = {2.0e-3, 1.6968e-4, 3.0e-3, 1.9393e-5};
-  options.window.solver.graph.trust.pixel_noise = 0.5;
+  options.window.solver.graph.trust.pixel_noise = 0.3;
   return options;
 }
 

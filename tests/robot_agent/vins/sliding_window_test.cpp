@@ -75,8 +75,8 @@ TEST(WindowOdometry, KeepsItsImuWhenTheSecondNewestFrameIsDropped) {
 TEST(DropFailedLandmarks, KeepsFarPointsWhoseNoiseIsNegative) {
   Window window;
   window.frames.push_back({});
-  window.landmarks[1] = {{{0, {}, 1}}, -0.001, true, 1};
-  window.landmarks[2] = {{{0, {}, 1}}, -1.0, true, 1};
+  window.landmarks[1] = {.observations = {{0, {}, 1}}, .lambda = -0.001, .has_depth = true};
+  window.landmarks[2] = {.observations = {{0, {}, 1}}, .lambda = -1.0, .has_depth = true};
   EXPECT_EQ(drop_failed_landmarks(window, {}), 1);
   EXPECT_TRUE(window.landmarks.at(1).has_depth);
   EXPECT_FALSE(window.landmarks.at(2).has_depth);

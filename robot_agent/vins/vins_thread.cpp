@@ -1,0 +1,101 @@
+#include "robot_agent/vins/vins_thread.hpp"
+
+#include <utility>
+
+namespace cosight::vins {
+
+VinsThread::VinsThread(const VinsThreadOptions& options, const CameraModel& camera, const Pose& T_BS)
+    : options_(options), tracker_(camera, options.tracker), vins_(options.vins, T_BS) {
+  thread_ = std::thread([this] { run(); });
+}
+
+VinsThread::~VinsThread() {
+  finish();
+}
+
+void VinsThread::push_imu(const ImuSample& sample) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (imu_.size() >= options_.max_imu_samples) {
+      counters_.imu_refused += imu_.size();  // without images, old samples are of no use
+      imu_.clear();
+    }
+    ++counters_.imu_samples;
+    imu_.push_back(sample);
+    last_imu_ = sample.stamp;
+  }
+  changed_.notify_all();
+}
+
+void VinsThread::push_image(Stamp stamp, GrayImage image) {
+  {
+    std::unique_lock lock(mutex_);
+    const auto has_room = [&] { return images_.size() < options_.max_images; };
+    // Without IMU samples the queue would never empty: then, as for live input, the oldest image goes.
+    if (options_.never_drop) changed_.wait(lock, [&] { return ended_ || has_room() || !can_process(); });
+    ++counters_.images;
+    if (stamp <= last_image_) {
+      ++counters_.images_out_of_order;
+      return;
+    }
+    last_image_ = stamp;
+    if (!has_room()) {
+      ++counters_.images_dropped;
+      images_.pop_front();
+    }
+    images_.push_back({stamp, std::move(image)});
+  }
+  changed_.notify_all();
+}
+
+std::vector<VinsEstimate> VinsThread::poll() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(estimates_, {});
+}
+
+void VinsThread::finish() {
+  {
+    const std::lock_guard lock(mutex_);
+    ended_ = true;
+  }
+  changed_.notify_all();
+  if (thread_.joinable()) thread_.join();
+}
+
+VinsCounters VinsThread::counters() const {
+  const std::lock_guard lock(mutex_);
+  return counters_;
+}
+
+bool VinsThread::can_process() const {
+  return !images_.empty() && last_imu_ >= images_.front().stamp;
+}
+
+void VinsThread::run() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    changed_.wait(lock, [&] { return ended_ || can_process(); });
+    if (!can_process()) break;
+    const StampedImage next = std::move(images_.front());
+    images_.pop_front();
+    const std::vector<ImuSample> imu = std::exchange(imu_, {});
+    lock.unlock();
+    changed_.notify_all();
+    process(next, imu);
+    lock.lock();
+  }
+  counters_.images_without_imu += images_.size();
+}
+
+void VinsThread::process(const StampedImage& next, const std::vector<ImuSample>& imu) {
+  std::uint64_t refused = 0;
+  for (const ImuSample& sample : imu)
+    refused += vins_.add_imu(sample) ? 0 : 1;
+  VinsEstimate estimate = vins_.process(tracker_.track(next.stamp, next.image));
+  const std::lock_guard lock(mutex_);
+  counters_.imu_refused += refused;
+  if (estimate.status == VinsStatus::kWaitingForImu) ++counters_.images_without_imu;
+  estimates_.push_back(std::move(estimate));
+}
+
+}  // namespace cosight::vins
