@@ -17,6 +17,10 @@ void Figures::set(const std::string& group, const std::string& metric, double va
   found->entries.push_back({metric, value});
 }
 
+void Figures::append(const Figures& other) {
+  groups_.insert(groups_.end(), other.groups_.begin(), other.groups_.end());
+}
+
 std::string Figures::json() const {
   nlohmann::ordered_json summary = nlohmann::ordered_json::object();
   for (const Group& group : groups_) {

@@ -11,6 +11,9 @@ class Figures {
  public:
   void set(const std::string& group, const std::string& metric, double value);
 
+  /// The other's groups after these.
+  void append(const Figures& other);
+
   /// {"group": {"metric": number}}; a number that is not finite is null.
   std::string json() const;
   /// One column a group, one row a metric; "-" where a group has no such metric.

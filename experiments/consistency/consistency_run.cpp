@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <numbers>
 
@@ -44,7 +45,11 @@ const FeatureWorld::Seen* find(const std::vector<FeatureWorld::Seen>& seen, int 
 }  // namespace
 
 ConsistencyRun::ConsistencyRun(unsigned seed, const RunOptions& options)
-    : options_(options), world_(seed, options.world), filter_(camera_model(), filter_options(options)) {
+    : options_(options),
+      world_(seed, options.world),
+      filter_(camera_model(), filter_options(options)),
+      spoiler_(seed + 1'000'003U),
+      validator_(options.validation) {
   rig_.camera_S = camera_model();
   rig_.camera_F = camera_model();
   rig_.sigma_pixel_S = filter_.options().pixel_sigma;
@@ -94,7 +99,7 @@ StepResult ConsistencyRun::step() {
   return result;
 }
 
-void ConsistencyRun::measure(const Sightings& seen, StepResult& result) {
+std::vector<Measurement> ConsistencyRun::measurements_of(const Sightings& seen) const {
   std::vector<Measurement> measurements;
   for (const FeatureWorld::Seen& s : seen) {
     const auto known = map_.find(s.point);
@@ -107,6 +112,61 @@ void ConsistencyRun::measure(const Sightings& seen, StepResult& result) {
     if (options_.wearer_form == WearerForm::kPixel && s.pixel_F)
       measurements.push_back(Measurement::wearer_pixel(known->second, *s.pixel_F, rig_.sigma_pixel_F));
   }
+  return measurements;
+}
+
+std::vector<char> ConsistencyRun::spoil(std::vector<Measurement>& measurements) {
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  const auto offset = [&] {
+    const double angle = 2.0 * std::numbers::pi * unit(spoiler_);
+    const double length =
+        options_.wrong.min_px + (options_.wrong.max_px - options_.wrong.min_px) * unit(spoiler_);
+    return Eigen::Vector2d(length * std::cos(angle), length * std::sin(angle));
+  };
+  const Eigen::Vector2d common = offset();
+  std::vector<char> is_wrong;
+  for (Measurement& m : measurements) {
+    is_wrong.push_back(unit(spoiler_) < options_.wrong.share ? 1 : 0);
+    const Eigen::Vector2d own = offset();
+    if (is_wrong.back() != 0) m.z.head<2>() += options_.wrong.repeated ? common : own;
+  }
+  return is_wrong;
+}
+
+void ConsistencyRun::validate(std::vector<Measurement>& measurements, std::vector<char>& is_wrong,
+                              MatchCounts& counts) {
+  constexpr double kGate = 0.99;
+  const ekf::ChiSquaredLimits limits(kGate, 3);
+  const auto keep_those = [&](auto passes) {
+    const auto linearised = filter_.innovation(measurements, &rig_).measurements();
+    std::vector<Measurement> kept;
+    std::vector<char> kept_wrong;
+    for (std::size_t i = 0; i < linearised.size(); ++i) {
+      if (!passes(i, linearised[i])) continue;
+      const auto index = static_cast<std::size_t>(linearised[i].measurement);
+      kept.push_back(measurements[index]);
+      kept_wrong.push_back(is_wrong[index]);
+    }
+    measurements = kept;
+    is_wrong = kept_wrong;
+  };
+  keep_those([&](std::size_t, const auto& m) { return m.nis <= limits(m.rows); });
+  const ekf::JointInnovation& joint = filter_.innovation(measurements, &rig_);
+  const auto start = std::chrono::steady_clock::now();
+  const std::vector<char> keep = validator_.test(joint);
+  counts.validation_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  keep_those([&](std::size_t i, const auto&) { return keep[i] != 0; });
+}
+
+void ConsistencyRun::measure(const Sightings& seen, StepResult& result) {
+  std::vector<Measurement> measurements = measurements_of(seen);
+  std::vector<char> is_wrong = spoil(measurements);
+  const auto count_wrong = [&] { return static_cast<int>(std::count(is_wrong.begin(), is_wrong.end(), 1)); };
+  result.matches.wrong = count_wrong();
+  result.matches.right = static_cast<int>(is_wrong.size()) - result.matches.wrong;
+  if (options_.validation != Validation::kNone) validate(measurements, is_wrong, result.matches);
+  result.matches.wrong_fused = count_wrong();
+  result.matches.right_fused = static_cast<int>(is_wrong.size()) - result.matches.wrong_fused;
   const ekf::UpdateReport& report = filter_.update(measurements, &rig_);
   result.joint = {report.nis, static_cast<double>(report.rows)};
   for (const ekf::MeasurementReport& m : report.measurements) {

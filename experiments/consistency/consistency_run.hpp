@@ -3,6 +3,7 @@
 #include <map>
 #include <vector>
 
+#include "experiments/consistency/association.hpp"
 #include "experiments/consistency/feature_world.hpp"
 #include "robot_agent/ekf/filter.hpp"
 
@@ -15,6 +16,14 @@ enum class FirstPose { kCloned, kIndependent };
 enum class WearerForm {
   kPoint,  ///< both pixels triangulated, C5
   kPixel,  ///< a pixel of each camera
+};
+
+/// Matches that are wrong, by pixels of either camera.
+struct WrongMatches {
+  double share = 0.0;     ///< of all matches of known landmarks
+  bool repeated = false;  ///< all of one frame are off by the same: a repeated pattern; else each by its own
+  double min_px = 5.0;    ///< off by so much at least …
+  double max_px = 40.0;   ///< … and at most
 };
 
 struct RunOptions {
@@ -30,6 +39,8 @@ struct RunOptions {
   bool correlated_starts = true;  ///< landmarks of one frame share the error of T_SF
   bool delayed_starts = true;     ///< new landmarks from Cs alone as well
   FirstPose first_pose = FirstPose::kCloned;
+  WrongMatches wrong;
+  Validation validation = Validation::kNone;
 };
 
 /// Sums of normalised innovations of one kind of measurement.
@@ -37,6 +48,13 @@ struct NisSum {
   double nis = 0.0;
   double rows = 0.0;
   double mean_per_row() const { return rows > 0.0 ? nis / rows : 0.0; }
+};
+
+/// Matches as they were given to the validation and as they were fused.
+struct MatchCounts {
+  int right = 0, right_fused = 0;
+  int wrong = 0, wrong_fused = 0;
+  double validation_s = 0.0;  ///< time the validation took [s]
 };
 
 /// One frame of one run.
@@ -49,6 +67,7 @@ struct StepResult {
   NisSum points;
   NisSum joint;  ///< all that were fused together
   int landmarks = 0;
+  MatchCounts matches;
 };
 
 /// The filter in a world, driven as slam drives it: predict, update with pixels and points, new landmarks
@@ -72,6 +91,12 @@ class ConsistencyRun {
   void start();
   bool wearer_looks() const;
   void measure(const Sightings& seen, StepResult& result);
+  std::vector<ekf::Measurement> measurements_of(const Sightings& seen) const;
+  /// Spoils a share of the measurements; one entry a measurement, not zero: wrong.
+  std::vector<char> spoil(std::vector<ekf::Measurement>& measurements);
+  /// Those that pass, with their `is_wrong`.
+  void validate(std::vector<ekf::Measurement>& measurements, std::vector<char>& is_wrong,
+                MatchCounts& counts);
   void forget_unseen(const Sightings& seen);
   void start_from_wearer(const Sightings& seen);
   void start_delayed(const Sightings& seen);
@@ -89,6 +114,8 @@ class ConsistencyRun {
   std::map<int, ekf::LandmarkId> map_;  ///< by point
   std::map<int, Candidate> candidates_;
   std::vector<ekf::CloneId> clones_;
+  std::mt19937 spoiler_;  ///< of its own: the world is the same with and without wrong matches
+  Validator validator_;
   int step_ = 0;
 };
 

@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <numbers>
@@ -73,6 +74,36 @@ void write_course(const fs::path& file, const RunOptions& options, const Consist
   csv.close();
 }
 
+/// 30 % of the matches are wrong, each off by its own 5 to 40 px or all of a frame by the same.
+void run_association(int runs, Figures& figures) {
+  struct Way {
+    const char* name;
+    Validation validation;
+  };
+  constexpr std::array<Way, 5> kWays{{{"gate", Validation::kGate},
+                                      {"hohct", Validation::kHohct},
+                                      {"hohct_then_each", Validation::kHohctThenEach},
+                                      {"jcbb", Validation::kJcbb},
+                                      {"ransac", Validation::kOnePointRansac}}};
+  RunOptions options;
+  options.validation = Validation::kHohct;
+  const ConsistencyCourse clean = monte_carlo(options, runs);
+  summarise_matches(clean, "clean", figures);
+  const double clean_error = mean_final_error(clean);
+  options.wrong.share = 0.3;
+  for (const bool repeated : {false, true}) {
+    options.wrong.repeated = repeated;
+    for (const Way& way : kWays) {
+      options.validation = way.validation;
+      const ConsistencyCourse course = monte_carlo(options, runs);
+      const std::string name = std::string(repeated ? "repeated_" : "association_") + way.name;
+      const std::string mode = name == "association_hohct" ? "association" : name;
+      summarise_matches(course, mode, figures);
+      figures.set(mode, "error_ratio", mean_final_error(course) / clean_error);
+    }
+  }
+}
+
 void run(const fs::path& folder, int runs) {
   fs::create_directories(folder);
   Figures figures;
@@ -81,8 +112,12 @@ void run(const fs::path& folder, int runs) {
     write_course(folder / (std::string("nees_") + mode.name + ".csv"), mode.options, course);
     summarise(course, mode.name, figures);
   }
-  figures.write_summary(folder);
   std::fputs(figures.table().c_str(), stdout);
+  Figures association;
+  run_association(runs, association);
+  std::printf("\n%s", association.table().c_str());
+  figures.append(association);
+  figures.write_summary(folder);
 }
 
 }  // namespace

@@ -13,6 +13,14 @@ void add(const NisSum& from, NisSum& to) {
   to.rows += from.rows;
 }
 
+void add(const MatchCounts& from, MatchCounts& to) {
+  to.right += from.right;
+  to.right_fused += from.right_fused;
+  to.wrong += from.wrong;
+  to.wrong_fused += from.wrong_fused;
+  to.validation_s += from.validation_s;
+}
+
 double mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
@@ -42,11 +50,16 @@ ConsistencyCourse monte_carlo(const RunOptions& options, int runs) {
       add(now.pixels, mean.pixels);
       add(now.points, mean.points);
       add(now.joint, mean.joint);
+      add(now.matches, course.matches);
     }
     course.final_errors.push_back(now.position_error);
     course.heading_errors.push_back(now.heading_error);
   }
   return course;
+}
+
+double mean_final_error(const ConsistencyCourse& course) {
+  return mean(course.final_errors);
 }
 
 Band average_band(int dof, int runs) {
@@ -95,6 +108,19 @@ void summarise(const ConsistencyCourse& course, const std::string& mode, Figures
               *std::max_element(course.heading_errors.begin(), course.heading_errors.end()) * 180.0 /
                   std::numbers::pi);
   figures.set(mode, "runs", course.runs);
+}
+
+void summarise_matches(const ConsistencyCourse& course, const std::string& mode, Figures& figures) {
+  constexpr double kPercent = 100.0;
+  constexpr double kMicroseconds = 1e6;
+  const MatchCounts& m = course.matches;
+  const double frames = static_cast<double>(course.runs) * static_cast<double>(course.mean.size());
+  figures.set(mode, "wrong_accepted_percent", m.wrong > 0 ? kPercent * m.wrong_fused / m.wrong : 0.0);
+  figures.set(mode, "right_lost_percent", kPercent * (m.right - m.right_fused) / m.right);
+  figures.set(mode, "validation_us", kMicroseconds * m.validation_s / frames);
+  figures.set(mode, "final_error_m_mean", mean(course.final_errors));
+  figures.set(mode, "final_error_m_max",
+              *std::max_element(course.final_errors.begin(), course.final_errors.end()));
 }
 
 }  // namespace cosight::experiments

@@ -14,6 +14,7 @@ struct ConsistencyCourse {
   std::vector<StepResult> mean;        ///< NIS as sums over all runs
   std::vector<double> final_errors;    ///< [m] of each run
   std::vector<double> heading_errors;  ///< [rad] of each run, at the end
+  MatchCounts matches;                 ///< of all runs and steps
 };
 
 /// Seeds 1000, 1001, ….
@@ -26,6 +27,9 @@ struct Band {
 };
 Band average_band(int dof, int runs);
 
+/// [m], of all runs.
+double mean_final_error(const ConsistencyCourse& course);
+
 /// What one number says of a course.
 struct ConsistencyFigures {
   double pose_in_band = 0.0;  ///< share of steps whose average NEES lies inside its 95 % band
@@ -37,6 +41,9 @@ struct ConsistencyFigures {
   double nis_joint = 0.0;
 };
 ConsistencyFigures figures_of(const ConsistencyCourse& course);
+
+/// What a validation let through, as percent and microseconds a frame.
+void summarise_matches(const ConsistencyCourse& course, const std::string& mode, Figures& figures);
 
 /// Sets the figures of a mode.
 void summarise(const ConsistencyCourse& course, const std::string& mode, Figures& figures);
