@@ -12,13 +12,14 @@ namespace {
 
 /// With the camera that the recording tells, when no file does.
 AgentInput with_recorded_camera(AgentInput input, const recording::McapReader& reader) {
-  if (input.camera.width > 0) return input;
+  if (input.knows_camera) return input;
   const auto camera = recording::recorded_robot_camera(reader);
   if (!camera) {
     throw recording::RecordingError("recording " + reader.source().name() +
                                     " does not tell the robot's camera; give --calibration");
   }
   input.camera = *camera;
+  input.knows_camera = true;
   return input;
 }
 
@@ -88,7 +89,7 @@ void OfflineRun::process_ready(const Progress& progress) {
     const FrameEstimate estimate = slam_.process(*bundle);
     intake_.robot_is_at(estimate);
     record_.add(*bundle, estimate);
-    const auto line = status_.update(*bundle, estimate, inbox_.counters().robot_lost, clock_.now());
+    const auto line = status_.update(*bundle, estimate, {.lost = inbox_.counters().robot_lost}, clock_.now());
     if (line && progress) progress(*line);
   }
 }

@@ -89,8 +89,10 @@ void RobotAgent::process(const FrameBundle& bundle, const Progress& progress) {
   intake_.robot_is_at(estimate);
   record_.add(bundle, estimate);
   publisher_.publish(estimate, [this] { return slam_.map(); });
-  const auto line =
-      status_.update(bundle, estimate, wearer_.frames_lost() + inbox_.counters().robot_lost, clock_.now());
+  const outbox::LinkState link{.lost = wearer_.frames_lost() + inbox_.counters().robot_lost,
+                               .worn_behind = inbox_.worn_behind(),
+                               .wearer_offset = inbox_.stamps().wearer_offset()};
+  const auto line = status_.update(bundle, estimate, link, clock_.now());
   if (line && progress) progress(*line);
 }
 

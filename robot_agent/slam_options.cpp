@@ -105,6 +105,8 @@ slam::StartOptions read_start(const ConfigNode& node) {
   o.sigma_position = node.number("sigma_position", o.sigma_position, 0.0, 100.0);
   o.sigma_rotation = node.number("sigma_rotation", o.sigma_rotation, 0.0, 3.0);
   o.first_landmarks = node.integer("first_landmarks", o.first_landmarks, 4, 500);
+  o.min_landmarks_later = node.integer("min_landmarks_later", o.min_landmarks_later, 1, 500);
+  o.patience_s = node.number("patience_s", o.patience_s, 0.0, 3600.0);
   o.min_landmarks = node.integer("min_landmarks", o.min_landmarks, 4, 500);
   o.overlap_s = node.number("overlap_s", o.overlap_s, 0.0, 1e9);
   o.known_point_sigma = node.number("known_point_sigma", o.known_point_sigma, 0.0, 10.0);

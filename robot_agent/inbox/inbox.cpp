@@ -26,7 +26,9 @@ Inbox::ArrivalClock Inbox::steady_arrival_clock() {
 void Inbox::push_robot_frame(ImageSample frame) {
   frame.stamp = stamps_.from_robot(frame.stamp);
   const std::lock_guard lock(mutex_);
-  pairing_.add_robot_frame(std::move(frame), clock_());
+  const Stamp now = clock_();
+  robot_delay_.note(now - frame.stamp);
+  pairing_.add_robot_frame(std::move(frame), now);
   arrived_.notify_one();
 }
 
@@ -35,6 +37,7 @@ void Inbox::push_wearer_frame(ImageSample frame, const PeerId& peer) {
   const std::lock_guard lock(mutex_);
   const Stamp now = clock_();
   if (!admit(peer, now)) return;
+  worn_delay_.note(now - frame.stamp);
   pairing_.add_worn_frame(std::move(frame), now);
   arrived_.notify_one();
 }
@@ -121,6 +124,12 @@ InboxCounters Inbox::counters() const {
   counters.no_calibration = edge_counters_.no_calibration;
   counters.second_wearer = edge_counters_.second_wearer;
   return counters;
+}
+
+std::optional<Stamp> Inbox::worn_behind() const {
+  const std::lock_guard lock(mutex_);
+  if (!robot_delay_.mean() || !worn_delay_.mean()) return std::nullopt;
+  return *worn_delay_.mean() - *robot_delay_.mean();
 }
 
 bool Inbox::admit(const PeerId& peer, Stamp now) {

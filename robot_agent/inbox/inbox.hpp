@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "robot_agent/frame_bundle.hpp"
+#include "robot_agent/inbox/arrival_delay.hpp"
 #include "robot_agent/inbox/counters.hpp"
 #include "robot_agent/inbox/options.hpp"
 #include "robot_agent/inbox/pairing.hpp"
@@ -60,6 +61,10 @@ class Inbox {
   StampMapping& stamps() { return stamps_; }
   InboxCounters counters() const;
 
+  /// How much longer than the robot's frames the worn ones take from their stamp to their arrival, smoothed
+  /// [ns]: what the link costs, and the clocks' offset as far as it is not known. Nothing before both came.
+  std::optional<Stamp> worn_behind() const;
+
  private:
   using Count = std::uint64_t InboxCounters::*;
 
@@ -83,6 +88,8 @@ class Inbox {
   InboxCounters
       edge_counters_;  ///< undecodable, wrong size, no calibration, second wearer; the rest is the pairing's
   bool closed_ = false;
+  ArrivalDelay robot_delay_;
+  ArrivalDelay worn_delay_;
 };
 
 }  // namespace cosight::inbox

@@ -13,6 +13,7 @@ class StampMapping {
   Stamp from_wearer(Stamp stamp) const { return stamp + wearer_offset_.load(std::memory_order_relaxed); }
 
   /// Robot's clock minus wearer's [ns]; any thread.
+  Stamp wearer_offset() const { return wearer_offset_.load(std::memory_order_relaxed); }
   void set_wearer_offset(Stamp offset) { wearer_offset_.store(offset, std::memory_order_relaxed); }
 
  private:

@@ -20,10 +20,19 @@ const char* spoken(Tracking tracking) {
   return "";
 }
 
+/// Nothing before a worn frame came.
+std::string link_text(const LinkState& link) {
+  if (!link.worn_behind) return "";
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), "  worn %+.0f ms  clock %+.1f ms",
+                1e3 * to_seconds(*link.worn_behind), 1e3 * to_seconds(link.wearer_offset));
+  return text.data();
+}
+
 }  // namespace
 
 std::optional<std::string> StatusText::update(const FrameBundle& bundle, const FrameEstimate& estimate,
-                                              std::uint64_t lost, Stamp now) {
+                                              const LinkState& link, Stamp now) {
   if (!first_stamp_) first_stamp_ = estimate.stamp;
   if (!last_line_) last_line_ = now;
   ++frames_;
@@ -38,11 +47,13 @@ std::optional<std::string> StatusText::update(const FrameBundle& bundle, const F
                 "%s  %.1f s  %.1f frames/s  %.1f ms  %d landmarks  overlap %d %%  matches %d  lost %llu",
                 spoken(estimate.tracking), to_seconds(estimate.stamp - *first_stamp_),
                 frames_ / to_seconds(elapsed), milliseconds_ / frames_, estimate.landmarks,
-                100 * with_overlap_ / frames_, matches_ / frames_, static_cast<unsigned long long>(lost));
+                100 * with_overlap_ / frames_, matches_ / frames_,
+                static_cast<unsigned long long>(link.lost));
+  const std::string text = line.data() + link_text(link);
   last_line_ = now;
   frames_ = with_overlap_ = matches_ = 0;
   milliseconds_ = 0.0;
-  return line.data();
+  return text;
 }
 
 }  // namespace cosight::outbox

@@ -187,6 +187,18 @@ TEST_F(TwoAgentInbox, WearerOnAnotherClockPairsOnceTheOffsetIsKnown) {
   EXPECT_EQ(bundles_[0].wearer->stamp, bundles_[0].stamp);
 }
 
+TEST_F(TwoAgentInbox, SaysHowFarTheWearersFramesAreBehind) {
+  EXPECT_FALSE(inbox_.worn_behind());
+  for (int i = 0; i < 50; ++i) {
+    step();
+    now_ += ms(20);
+    inbox_.push_wearer_frame(mono_frame(stamp_), kWearer);
+    now_ -= ms(20);
+  }
+  ASSERT_TRUE(inbox_.worn_behind());
+  EXPECT_NEAR(to_seconds(*inbox_.worn_behind()), 0.020, 1e-4);
+}
+
 TEST_F(TwoAgentInbox, FramesWithoutPixelsStillGiveABundle) {
   ImageSample truncated = jpeg_frame(ms(10'000));
   truncated.bytes.resize(truncated.bytes.size() - 20);

@@ -192,12 +192,20 @@ TEST(StatusText, AveragesSinceTheLineBefore) {
   for (int i = 0; i < 10; ++i) {
     estimate.stamp = from_seconds(0.1 * i);
     estimate.overlap.predicted = i >= 5;
-    EXPECT_FALSE(status.update({}, estimate, 0, from_seconds(50 + 0.1 * i))) << i;
+    EXPECT_FALSE(status.update({}, estimate, {}, from_seconds(50 + 0.1 * i))) << i;
   }
   estimate.stamp = from_seconds(1.0);
-  const auto line = status.update({}, estimate, 3, from_seconds(51.0));
+  const auto line = status.update({}, estimate, {.lost = 3}, from_seconds(51.0));
   ASSERT_TRUE(line);
   EXPECT_EQ(*line, "tracking  1.0 s  11.0 frames/s  8.0 ms  41 landmarks  overlap 54 %  matches 0  lost 3");
+}
+
+TEST(StatusText, SaysHowTheWearersFramesComeOnceThereAreAny) {
+  StatusText status(0);
+  const LinkState link{.lost = 0, .worn_behind = from_seconds(0.0142), .wearer_offset = from_seconds(-0.25)};
+  const auto line = status.update({}, tracked(0.0), link, from_seconds(51.0));
+  ASSERT_TRUE(line);
+  EXPECT_TRUE(line->ends_with("lost 0  worn +14 ms  clock -250.0 ms")) << *line;
 }
 
 }  // namespace
