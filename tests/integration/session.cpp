@@ -138,6 +138,20 @@ Session::Process Session::start(const std::string& program, const std::string& n
   return std::make_unique<ChildProcess>(program, arguments, in_folder(name + std::to_string(++started_)));
 }
 
+Session::Process Session::robot_from(const std::filesystem::path& recording, const Arguments& more) {
+  Arguments arguments{"--from", recording, "--rate", "0", "--run-dir", run_folder()};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return std::make_unique<ChildProcess>(ROBOT_AGENT, arguments,
+                                        in_folder("offline" + std::to_string(++started_)));
+}
+
+Session::Process Session::recorder(const std::filesystem::path& recording) {
+  const Arguments arguments{"record",      recording, "--domain", std::to_string(private_domain()),
+                            "--interface", "lo"};
+  return std::make_unique<ChildProcess>(COSIGHT, arguments,
+                                        in_folder("recorder" + std::to_string(++started_)));
+}
+
 bool Session::robot_reaches(int frames) const {
   return eventually([&] { return run_files().frames().size() >= static_cast<std::size_t>(frames); });
 }

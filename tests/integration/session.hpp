@@ -69,6 +69,11 @@ class Session : public testing::Test {
   /// The small scene, live: what both agents' sensors say, on the session's domain.
   Process live_scene(const Arguments& more = {});
 
+  /// A robot that is fed by a recording, without DDS.
+  Process robot_from(const std::filesystem::path& recording, const Arguments& more = {});
+  /// Records the session's domain.
+  Process recorder(const std::filesystem::path& recording);
+
   const std::filesystem::path& run_folder() const { return run_folder_; }
   void write_into(const std::filesystem::path& run_folder) { run_folder_ = run_folder; }
   RunFiles run_files() const { return RunFiles(run_folder()); }
