@@ -104,6 +104,7 @@ FrameEstimate CollaborativeSlam::process(const FrameBundle& bundle) {
   WornMatches matches;  // pseudo-stereo
   if (view) {
     view_stamp_ = bundle.stamp;
+    if (!first_view_stamp_) first_view_stamp_ = bundle.stamp;
     matches = wearer_matcher_.match(*view, *bundle.image, sightings, filter_, tracks_,
                                     tracking_ == Tracking::kWaitingForScale, estimate.pseudo_stereo);
   }
@@ -294,7 +295,7 @@ void CollaborativeSlam::begin(const GrayImage& image, const std::optional<Stereo
     estimate.landmarks_added = add_pseudo_stereo(
         image, *view, matches, {options_.start.first_landmarks, 2 * options_.start.first_landmarks},
         estimate.pseudo_stereo);
-    if (filter_.landmark_count() >= options_.start.min_landmarks) {
+    if (is_good_start(estimate.stamp)) {
       tracking_ = Tracking::kTracking;
     } else {
       for (const LandmarkTrack& track : tracks_.all())
@@ -305,6 +306,12 @@ void CollaborativeSlam::begin(const GrayImage& image, const std::optional<Stereo
     }
   }
   if (tracking_ == Tracking::kTracking) scale_stamp_ = estimate.stamp;
+}
+
+bool CollaborativeSlam::is_good_start(Stamp stamp) const {
+  const StartOptions& start = options_.start;
+  const bool is_late = first_view_stamp_ && to_seconds(stamp - *first_view_stamp_) >= start.patience_s;
+  return filter_.landmark_count() >= (is_late ? start.min_landmarks_later : start.min_landmarks);
 }
 
 std::vector<std::optional<ekf::LandmarkId>> CollaborativeSlam::start_landmarks(

@@ -46,6 +46,7 @@ class CollaborativeSlam {
   bool is_wide(const std::vector<ekf::PixelPrediction>& predictions) const;
   bool may_use_wearer(Stamp stamp) const;
   bool is_wearer_due(Stamp stamp) const;
+  bool is_good_start(Stamp stamp) const;
   std::optional<StereoView> wearer_view(const FrameBundle& bundle, const std::vector<Sighting>& sightings,
                                         FrameEstimate& estimate) const;
   std::vector<ekf::Measurement> validate(const std::vector<ekf::Measurement>& measurements,
@@ -83,8 +84,9 @@ class CollaborativeSlam {
       Eigen::Matrix<double, 6, 6>::Zero();  ///< after the last frame
   ConvexPolygon silhouette_;                ///< of the wearer in the present frame [px]
   std::optional<Stamp> last_stamp_;
-  std::optional<Stamp> scale_stamp_;  ///< when tracking began
-  std::optional<Stamp> view_stamp_;   ///< of the last frame whose overlap with Cf was measured
+  std::optional<Stamp> scale_stamp_;       ///< when tracking began
+  std::optional<Stamp> first_view_stamp_;  ///< when the views overlapped first
+  std::optional<Stamp> view_stamp_;        ///< of the last frame whose overlap with Cf was measured
   int frames_without_match_ = 0;
 };
 

@@ -15,8 +15,12 @@ std::optional<Pose> MotionPrior::find(const vision::PointTracker& tracker, const
   for (const LandmarkTrack& track : tracks.all()) {
     const auto landmark = track.found ? filter.landmark(track.id) : std::nullopt;
     if (!landmark) continue;
-    starts.push_back({track.pixel, track.pixel, nullptr});
-    candidates_W.push_back(finite_point(*landmark));
+    const Eigen::Vector3d p_W = finite_point(*landmark);
+    // From where the motion so far leads: from the old place, a repeated pattern is found one period off.
+    const auto predicted = filter.camera_model().project(filter.camera().T_WS().inverse() * p_W);
+    const bool in_view = predicted && filter.camera_model().contains(*predicted);
+    starts.push_back({track.pixel, in_view ? *predicted : track.pixel, nullptr});
+    candidates_W.push_back(p_W);
   }
   const std::vector<vision::Track> found = tracker.track(starts);
   std::vector<vision::KnownPoint> points;

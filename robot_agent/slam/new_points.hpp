@@ -52,6 +52,9 @@ class NewPoints {
   std::vector<Guess> guesses(const StereoView& view, const GrayImage& image_S,
                              const std::vector<Eigen::Vector2d>& occupied, int tries);
 
+  /// Forgets which corners had no match: another start tries them all.
+  void forget_refusals() { refusals_.clear(); }
+
   /// Those of the guesses that are new points once the pose of Cf is known better.
   std::vector<NewPoint> judge(const StereoView& view, const std::vector<Guess>& guesses, int wanted,
                               PseudoStereoCounts& counts) const;

@@ -31,8 +31,8 @@ enum class Matching {
 /// Constant velocity with unknown accelerations. Larger when the camera moves abruptly, smaller when it
 /// drifts.
 struct MotionOptions {
-  double sigma_acceleration = 3.0;            ///< [m/s^2]
-  double sigma_angular_acceleration = 3.0;    ///< [rad/s^2]
+  double sigma_acceleration = 1.5;            ///< [m/s^2]
+  double sigma_angular_acceleration = 2.0;    ///< [rad/s^2]
   double start_sigma_velocity = 1.0;          ///< before anything was seen to move [m/s]
   double start_sigma_angular_velocity = 1.0;  ///< [rad/s]
 };
@@ -54,7 +54,7 @@ struct PseudoStereoOptions {
   Matching matching = Matching::kBand;
   int max_features = 500;                  ///< described in each image
   double max_ratio = 0.85;                 ///< best / second best descriptor distance
-  double min_correlation = 0.85;           ///< ZNCC between the two views
+  double min_correlation = 0.8;            ///< ZNCC between the two views
   double wearer_pixel_sigma = 0.5;         ///< noise of a pixel in Cf, one axis [px]
   double min_parallax_deg = 1.0;           ///< below it there is no depth in the pair
   double max_relative_depth_sigma = 0.25;  ///< sigma_rho / rho above which a pair says too little
@@ -90,7 +90,7 @@ struct BodyOptions {
 /// Features that wait for parallax.
 struct CandidateOptions {
   int max_candidates = 40;
-  double min_parallax_deg = 1.5;  ///< alpha_min
+  double min_parallax_deg = 1.0;  ///< alpha_min
   double min_baseline_m = 0.03;   ///< b_min
   double max_relative_depth_sigma = 0.5;
   int max_age_frames = 60;  ///< without parallax after so many frames it gives its place to another
@@ -114,7 +114,9 @@ struct StartOptions {
   double sigma_position = 1e-3;     ///< of that pose [m]
   double sigma_rotation = 1e-3;     ///< [rad]
   int first_landmarks = 40;         ///< pseudo-stereo landmarks wanted from the first overlap
-  int min_landmarks = 8;            ///< pseudo-stereo landmarks that make a first overlap good enough
+  int min_landmarks = 12;           ///< pseudo-stereo landmarks that make a first overlap good enough
+  int min_landmarks_later = 6;      ///< the same once the views have overlapped for `patience_s` in vain
+  double patience_s = 1.0;          ///< few landmarks hang on one another's errors: a better view may come
   double overlap_s = 0.35;          ///< mono: Cf may set the scale so long, and is not used again
   double known_point_sigma = 1e-3;  ///< of surveyed points [m]
   double known_pixel_sigma = 1.0;   ///< of their pixels in the first frame [px]

@@ -26,6 +26,7 @@ WornMatches WearerMatcher::match(StereoView& view, const GrayImage& image_S,
                                  const std::vector<Sighting>& sightings, const ekf::Filter& filter,
                                  LandmarkTracks& tracks, bool is_start, PseudoStereoCounts& counts) {
   WornMatches matches;
+  if (is_start) new_points_.forget_refusals();
   matches.landmarks = pseudo_stereo_.match(view, image_S, sightings, filter, tracks, counts);
   if (!options_.refine_wearer_pose) return matches;
   std::vector<ekf::StereoMatch> evidence;

@@ -14,12 +14,14 @@ set ylabel 'y [m]'
 set key inside left top
 of(run, turn) = strstrt(run, 'turn_'.turn.'_') == 1
 do for [turn in '90 180'] {
+  here = ''
+  do for [run in runs] { if (of(run, turn)) { here = here.' '.run } }
   set xrange [-4:10]
   set yrange [turn eq '90' ? -4 : -3:turn eq '90' ? 8 : 6]
   set title turn.' degrees'
-  plot for [mode in 'mono collaborative'] for [run in runs] (of(run, turn) ? errors(run, mode) : '/dev/null') \
-         skip 1 using 6:7 with lines lw 1 lc rgb (mode eq 'mono' ? blue : red) notitle, \
-       for [run in runs] (of(run, turn) ? errors(run, 'mono') : '/dev/null') skip 1 using 3:4 with lines lw 2 lc rgb gray notitle, \
+  plot for [mode in 'mono collaborative'] for [run in here] errors(run, mode) skip 1 using 6:7 with lines lw 1 \
+         lc rgb (mode eq 'mono' ? blue : red) notitle, \
+       for [run in here] errors(run, 'mono') skip 1 using 3:4 with lines lw 2 lc rgb gray notitle, \
        NaN with lines lw 2 lc rgb gray title 'truth', NaN with lines lw 1 lc rgb blue title 'mono', \
        NaN with lines lw 1 lc rgb red title 'collaborative'
 }
