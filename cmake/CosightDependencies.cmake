@@ -24,3 +24,10 @@ foreach(component common io kdtree search segmentation)
   target_link_libraries(cosight_pcl INTERFACE ${PCL_${component}_LIBRARY})
 endforeach()
 target_link_libraries(cosight_pcl INTERFACE Eigen3::Eigen)
+
+# GeographicLib's own config sets a name of its own version for the target; one library needs no more than this.
+find_path(GEOGRAPHICLIB_INCLUDE_DIR GeographicLib/MagneticModel.hpp REQUIRED)
+find_library(GEOGRAPHICLIB_LIBRARY GeographicLib REQUIRED)
+add_library(cosight_geographic INTERFACE)
+target_include_directories(cosight_geographic SYSTEM INTERFACE ${GEOGRAPHICLIB_INCLUDE_DIR})
+target_link_libraries(cosight_geographic INTERFACE ${GEOGRAPHICLIB_LIBRARY})

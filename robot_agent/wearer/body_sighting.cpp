@@ -1,6 +1,8 @@
 #include "robot_agent/wearer/body_sighting.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -68,6 +70,34 @@ bool stands_free(const PlanarScan& scan, const Points& points) {
   return true;
 }
 
+/// One smooth front, flat or round: a pillar or the end of a box, where two legs have a gap between them.
+/// Deviation from x^2 + y^2 = 2 a x + 2 b y + c by least squares, and from a straight line.
+bool is_one_front(const Points& points, double sigma) {
+  constexpr std::size_t kFewest = 7;
+  if (points.size() < kFewest) return false;
+  const Eigen::Vector2d m = middle(points);
+  Eigen::MatrixXd A(points.size(), 3);
+  Eigen::VectorXd squares(points.size());
+  Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const Eigen::Vector2d d = points[k].p_O - m;
+    const auto row = static_cast<Eigen::Index>(k);
+    A.row(row) << 2.0 * d.x(), 2.0 * d.y(), 1.0;
+    squares[row] = d.squaredNorm();
+    spread += d * d.transpose();
+  }
+  const auto count = static_cast<double>(points.size());
+  const double tolerance = 1.15 * sigma;
+  if (std::sqrt(spread.selfadjointView<Eigen::Lower>().eigenvalues()[0] / (count - 2.0)) < tolerance)
+    return true;
+  const Eigen::Vector3d circle = A.colPivHouseholderQr().solve(squares);
+  const double radius = std::sqrt(std::max(circle[2] + circle.head<2>().squaredNorm(), 0.0));
+  double sum = 0.0;
+  for (const ScanPoint& point : points)
+    sum += std::pow((point.p_O - m - circle.head<2>()).norm() - radius, 2);
+  return std::sqrt(sum / (count - 3.0)) < tolerance;
+}
+
 bool touch(const Points& a, const Points& b, double gap) {
   for (const ScanPoint& p : a) {
     for (const ScanPoint& q : b) {
@@ -88,7 +118,7 @@ void add_legs(std::vector<Limb>& limbs, const PlanarScan& scan, const Points& cl
   const double wide = width(cluster);
   if (wide <= person.max_leg_width) {
     limbs.push_back(fit(scan, cluster, person.leg_radius));
-  } else if (wide <= person.max_stride + person.max_leg_width) {
+  } else if (wide <= person.max_stride + person.max_leg_width && !is_one_front(cluster, scan.sigma)) {
     for (const Points& half : halves(cluster)) {
       if (!half.empty() && width(half) <= 1.3 * person.max_leg_width)
         limbs.push_back(fit(scan, half, person.leg_radius));

@@ -46,7 +46,7 @@ struct PersonModel {
   double pair_sigma = 0.025;    ///< of the middle of two legs about the body's axis, each way [m]
   double torso_radius = 0.14;   ///< from the surface to the axis [m]
   double max_width = 0.8;       ///< of a torso, arms included [m]
-  double hip_height = 0.85;     ///< a laser above this sees the torso [m]
+  double hip_height = 0.85;     ///< a laser above this sees the torso; lower it for a long skirt [m]
   double hidden_scans = 8.0;    ///< in a row that a hidden leg misleads alike: those of a third of a second
 };
 

@@ -80,8 +80,10 @@ void WearerTracker::remember_furniture(const PlanarScan& scan) {
 void WearerTracker::forget_the_lost(Stamp stamp) {
   const PersonTrack* track = wearer();
   if (track == nullptr) return;
-  last_place_ = LastPlace{stamp, track->p_O()};
-  if (track->worst_sigma() < options_.track.forget_sigma) return;
+  // What never moved and is seen no more was no person: then the search begins as at the start.
+  if (last_place_ || track->has_moved()) last_place_ = LastPlace{stamp, track->p_O()};
+  const bool furniture = !last_place_ && to_seconds(stamp - track->seen) > options_.track.drop_after;
+  if (!furniture && track->worst_sigma() < options_.track.forget_sigma) return;
   wearer_.reset();
   ++counters_.losses;
 }

@@ -1,20 +1,14 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstdint>
 #include <deque>
 #include <optional>
 
 #include "robot_agent/wearer/options.hpp"
+#include "robot_agent/wearer/uncertain_angle.hpp"
 #include "shared/dataset/sample.hpp"
 
 namespace cosight::wearer {
-
-/// An angle with the standard deviation of its error [rad].
-struct UncertainAngle {
-  double angle = 0.0;
-  double sigma = 0.0;
-};
 
 /// From where a body stands to where its camera is:
 ///
