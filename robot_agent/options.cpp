@@ -42,6 +42,8 @@ RobotOptions read_robot_options(const ConfigNode& root) {
   options.dds = transport::read_participant_options(root.section("dds"), options.dds);
   options.inbox = read_inbox_options(root.section("inbox"));
   options.slam = read_slam_options(root.section("slam"));
+  // The inbox turns by what is configured; what that leaves open is slam's to find out.
+  options.slam.yaw_offset.prior.sigma = options.inbox.mounting.yaw_offset_sigma;
   options.wearer = read_wearer_section(root.section("wearer"));
   const ConfigNode start = root.section("start");
   options.wait_for_wearer = start.number("wait_for_wearer", options.wait_for_wearer, 0.0, 86'400.0);

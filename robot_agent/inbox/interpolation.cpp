@@ -100,7 +100,6 @@ UncertainOrientation free_camera_orientation(const UncertainOrientation& q_WH,
   q_WF.covariance = R_yaw * q_WH.covariance * R_yaw.transpose();
   // The mounting's error is alike about all axes, so it needs no turning into those of W.
   q_WF.covariance.diagonal().array() += options.mounting_sigma * options.mounting_sigma;
-  q_WF.covariance(2, 2) += options.yaw_offset_sigma * options.yaw_offset_sigma;
   return q_WF;
 }
 

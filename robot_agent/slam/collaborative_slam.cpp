@@ -8,6 +8,7 @@
 #include "robot_agent/slam/stopwatch.hpp"
 #include "robot_agent/slam/wearer_silhouette.hpp"
 #include "robot_agent/vision/patch_warp.hpp"
+#include "shared/geometry/rotation.hpp"
 
 namespace cosight::slam {
 namespace {
@@ -76,6 +77,7 @@ CollaborativeSlam::CollaborativeSlam(const CameraModel& camera_S, const SlamOpti
       candidates_(options.candidates, options.search.pixel_sigma),
       wearer_matcher_(options.pseudo_stereo, options.search.pixel_sigma, options.map.min_distance_px,
                       options.seed),
+      yaw_offset_(options.yaw_offset),
       maintenance_(options.map),
       motion_prior_(options.seed),
       corners_(corner_options(options.map)) {
@@ -107,6 +109,7 @@ FrameEstimate CollaborativeSlam::process(const FrameBundle& bundle) {
     if (!first_view_stamp_) first_view_stamp_ = bundle.stamp;
     matches = wearer_matcher_.match(*view, *bundle.image, sightings, filter_, tracks_,
                                     tracking_ == Tracking::kWaitingForScale, estimate.pseudo_stereo);
+    learn_yaw_offset(*bundle.wearer, *view);
   }
   const auto measurements = wearer_matcher_.measure(view, sightings, matches, estimate.pseudo_stereo);
   watch.lap(estimate.timings.pseudo_stereo);
@@ -183,7 +186,8 @@ std::optional<StereoView> CollaborativeSlam::wearer_view(const FrameBundle& bund
   const auto T_WS = bundle.wearer->has_orientation
                         ? std::nullopt
                         : pose_of_sightings(filter_, sightings, pose_covariance_, options_.seed);
-  const auto T_SF = wearer_pose(*bundle.wearer, T_WS.value_or(filter_.T_WS()));
+  const auto T_SF =
+      wearer_pose(*bundle.wearer, T_WS.value_or(filter_.T_WS()), yaw_offset_.yaw_WA(bundle.stamp));
   estimate.pseudo_stereo_outcome = PseudoStereoOutcome::kNoWearerPose;
   if (!T_SF) return std::nullopt;
   estimate.overlap =
@@ -199,6 +203,27 @@ std::optional<StereoView> CollaborativeSlam::wearer_view(const FrameBundle& bund
   view.up_S = filter_.camera().q_WS.conjugate() * Eigen::Vector3d::UnitZ();
   view.silhouette = silhouette_;
   return view;
+}
+
+// What the matches alone say of Cf's yaw: the refined pose holds the sensors' as well, which the offset knows
+// already. With variances p before and q after: 1/r = 1/q - 1/p, and the step from the prior mean grows by
+// p/(p-q).
+void CollaborativeSlam::learn_yaw_offset(const WearerView& wearer, const StereoView& view) {
+  constexpr Eigen::Index kYaw = 2;
+  if (wearer.has_orientation || !wearer.q_WF || !view.prior_T_SF) return;
+  const Eigen::Matrix3d R_WS = filter_.camera().q_WS.toRotationMatrix();
+  const auto yaw_variance = [&](const UncertainPose& T_SF) {
+    return (R_WS * T_SF.covariance.bottomRightCorner<3, 3>() * R_WS.transpose())(kYaw, kYaw);
+  };
+  const double p = yaw_variance(*view.prior_T_SF);
+  const double q = yaw_variance(view.rig.T_SF);
+  if (!(q < 0.8 * p)) return;
+  const Eigen::Quaterniond step = view.rig.T_SF.T.q * view.prior_T_SF->T.q.conjugate();
+  const double yaw = (R_WS * quaternion_log(step))(kYaw)*p / (p - q);
+  const Eigen::Quaterniond turn(
+      Eigen::AngleAxisd(yaw_offset_.yaw_WA(wearer.stamp).angle + yaw, Eigen::Vector3d::UnitZ()));
+  const Eigen::Matrix3d covariance = Eigen::Vector3d(0.0, 0.0, p * q / (p - q)).asDiagonal();
+  yaw_offset_.sighting(wearer.stamp, turn * *wearer.q_WF, covariance, *wearer.q_WF);
 }
 
 std::vector<ekf::Measurement> CollaborativeSlam::validate(const std::vector<ekf::Measurement>& measurements,
@@ -385,6 +410,9 @@ void CollaborativeSlam::describe(FrameEstimate& estimate) {
   estimate.twist_covariance = filter_.twist_covariance();
   estimate.landmarks = filter_.landmark_count();
   estimate.candidates = candidates_.size();
+  const wearer::UncertainAngle yaw = yaw_offset_.yaw_WA(estimate.stamp);
+  estimate.yaw_offset = yaw.angle;
+  estimate.yaw_offset_sigma = yaw.sigma;
   if (estimate.overlap.predicted) estimate.pseudo_stereo_outcome = outcome_of(estimate.pseudo_stereo);
 }
 

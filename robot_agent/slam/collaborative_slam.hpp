@@ -20,6 +20,7 @@
 #include "robot_agent/slam/wearer_matcher.hpp"
 #include "robot_agent/vision/corner_detector.hpp"
 #include "robot_agent/vision/point_tracker.hpp"
+#include "robot_agent/wearer/yaw_offset.hpp"
 
 namespace cosight::slam {
 
@@ -49,6 +50,7 @@ class CollaborativeSlam {
   bool is_good_start(Stamp stamp) const;
   std::optional<StereoView> wearer_view(const FrameBundle& bundle, const std::vector<Sighting>& sightings,
                                         FrameEstimate& estimate) const;
+  void learn_yaw_offset(const WearerView& wearer, const StereoView& view);
   std::vector<ekf::Measurement> validate(const std::vector<ekf::Measurement>& measurements,
                                          FrameEstimate& estimate);
   void note_fused(const std::vector<Sighting>& sightings, const ekf::UpdateReport& report,
@@ -74,6 +76,7 @@ class CollaborativeSlam {
   LandmarkSearch search_;
   CandidatePool candidates_;
   WearerMatcher wearer_matcher_;
+  wearer::YawOffset yaw_offset_;
   MapMaintenance maintenance_;
   MotionPrior motion_prior_;
   vision::PointTracker tracker_;

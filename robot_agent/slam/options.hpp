@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "robot_agent/overlap/predict_overlap.hpp"
+#include "robot_agent/wearer/yaw_offset.hpp"
 #include "shared/geometry/pose.hpp"
 
 namespace cosight::slam {
@@ -132,6 +133,8 @@ struct SlamOptions {
   CandidateOptions candidates;
   MapOptions map;
   StartOptions start;
+  /// The AHRS's north against W. A wearer's pose with an orientation of its own does not need it.
+  wearer::YawOffsetOptions yaw_offset{.prior = {0.0, 0.01}};
   overlap::OverlapOptions overlap;
 };
 

@@ -5,16 +5,21 @@
 
 namespace cosight::slam {
 
-std::optional<UncertainPose> wearer_pose(const WearerView& wearer, const UncertainPose& T_WS) {
+std::optional<UncertainPose> wearer_pose(const WearerView& wearer, const UncertainPose& T_WS,
+                                         const wearer::UncertainAngle& yaw) {
   if (wearer.has_orientation) return wearer.T_SF;
   if (!wearer.q_WF) return std::nullopt;
   const Eigen::Matrix3d R_SW = T_WS.T.q.conjugate().toRotationMatrix();
   UncertainPose T_SF = wearer.T_SF;
-  T_SF.T.q = (T_WS.T.q.conjugate() * *wearer.q_WF).normalized();
+  const Eigen::Quaterniond turn(Eigen::AngleAxisd(yaw.angle, Eigen::Vector3d::UnitZ()));
+  const Eigen::Matrix3d R_turn = turn.toRotationMatrix();
+  Eigen::Matrix3d covariance = R_turn * wearer.q_WF_covariance * R_turn.transpose();
+  covariance(2, 2) += yaw.sigma * yaw.sigma;
+  T_SF.T.q = (T_WS.T.q.conjugate() * turn * *wearer.q_WF).normalized();
   T_SF.covariance.bottomRows<3>().setZero();
   T_SF.covariance.rightCols<3>().setZero();
   T_SF.covariance.bottomRightCorner<3, 3>() =
-      R_SW * (wearer.q_WF_covariance + T_WS.covariance.bottomRightCorner<3, 3>()) * R_SW.transpose();
+      R_SW * (covariance + T_WS.covariance.bottomRightCorner<3, 3>()) * R_SW.transpose();
   return T_SF;
 }
 

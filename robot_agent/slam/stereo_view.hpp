@@ -6,6 +6,7 @@
 #include "robot_agent/frame_bundle.hpp"
 #include "robot_agent/frame_estimate.hpp"
 #include "robot_agent/slam/options.hpp"
+#include "robot_agent/wearer/uncertain_angle.hpp"
 #include "shared/geometry/convex_polygon.hpp"
 
 namespace cosight::slam {
@@ -14,6 +15,8 @@ namespace cosight::slam {
 struct StereoView {
   const GrayImage* image_F = nullptr;
   ekf::StereoRig rig;
+  std::optional<UncertainPose>
+      prior_T_SF;  ///< what the sensors said, once the matches have made `rig` better
   OverlapEstimate overlap;
   double near = 0.3;                                 ///< nothing nearer to Cs is looked for [m]
   Eigen::Vector3d up_S = -Eigen::Vector3d::UnitY();  ///< z of W
@@ -21,8 +24,10 @@ struct StereoView {
 };
 
 /// T_SF of a worn view; its orientation from the AHRS where only a position is given:
-/// R_SF = R_WS^T R_WF, with the errors of both in the axes of S. Nothing without any orientation.
-std::optional<UncertainPose> wearer_pose(const WearerView& wearer, const UncertainPose& T_WS);
+/// R_SF = R_WS^T R_z(yaw) R_WF, with the errors of all three in the axes of S. `yaw`: from the AHRS's north,
+/// as the view has it, to W. Nothing without any orientation.
+std::optional<UncertainPose> wearer_pose(const WearerView& wearer, const UncertainPose& T_WS,
+                                         const wearer::UncertainAngle& yaw = {0.0, 0.0});
 
 /// Enough parallax, and a depth that is known well enough by the eleven uncertain inputs (C section 3.2).
 bool has_depth(const ekf::StereoPoint& point, const ekf::StereoRig& rig, const PseudoStereoOptions& options);

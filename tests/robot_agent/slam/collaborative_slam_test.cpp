@@ -97,6 +97,29 @@ TEST(CollaborativeSlam, HoldsMetricScaleFromTheFirstOverlapWithoutATarget) {
   EXPECT_GT(points_fused(estimates), 100);
 }
 
+/// The wearer's orientation by an AHRS whose north is `north` [rad] beside W's.
+FrameBundle with_ahrs(int frame, double north) {
+  FrameBundle bundle = world().bundle(frame);
+  bundle.wearer->has_orientation = false;
+  const Eigen::Quaterniond turn(Eigen::AngleAxisd(-north, Eigen::Vector3d::UnitZ()));
+  bundle.wearer->q_WF = turn * world().T_WF(frame).q;
+  bundle.wearer->q_WF_covariance = 1e-5 * Eigen::Matrix3d::Identity();
+  return bundle;
+}
+
+TEST(CollaborativeSlam, FindsHowTheAhrsIsTurnedAgainstTheMap) {
+  constexpr double kNorth = 0.05;  // 2.9 degrees
+  SlamOptions options = world().options();
+  options.yaw_offset.prior = {0.0, 0.06};
+  CollaborativeSlam slam(world().camera(), options);
+  FrameEstimate estimate;
+  for (int frame = 0; frame <= 30; ++frame)
+    estimate = slam.process(with_ahrs(frame, kNorth));
+  EXPECT_NEAR(estimate.yaw_offset, kNorth, 0.015);
+  EXPECT_LT(estimate.yaw_offset_sigma, 0.02);
+  EXPECT_LT(position_error(estimate, 30), 0.01 + 0.03 * world().path_length(0, 30));
+}
+
 TEST(CollaborativeSlam, AWrongBaselineGivesAWrongScale) {  // so the scale is the wearer's, not a guess
   CollaborativeSlam slam = collaborative();
   FrameEstimate last;

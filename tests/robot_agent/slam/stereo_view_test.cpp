@@ -51,6 +51,21 @@ TEST(WearerPose, IsThePoseThatWasGivenWhenItHasAnOrientation) {
   EXPECT_EQ(T_SF->covariance, view.T_SF.covariance);
 }
 
+TEST(WearerPose, TurnsTheAhrsByItsYawOffset) {
+  const UncertainPose T_WS = robot_pose();
+  const Pose T_SF{quaternion_exp({0.1, -0.2, 0.3}), {-0.5, 0.1, 1.2}};
+  WearerView view = ahrs_view(T_WS, T_SF);
+  const Eigen::Quaterniond turn(Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitZ()));
+  view.q_WF = turn.conjugate() * *view.q_WF;
+  const auto turned = wearer_pose(view, T_WS, {0.3, 0.02});
+  ASSERT_TRUE(turned);
+  EXPECT_LT(turned->T.q.angularDistance(T_SF.q), 1e-9);
+  const Eigen::Vector3d z_S = T_WS.T.q.conjugate() * Eigen::Vector3d::UnitZ();
+  const auto sure = wearer_pose(view, T_WS, {0.3, 0.0});
+  const Eigen::Matrix3d added = (turned->covariance - sure->covariance).bottomRightCorner<3, 3>();
+  EXPECT_TRUE(added.isApprox(4e-4 * z_S * z_S.transpose(), 1e-9));
+}
+
 TEST(WearerPose, IsNothingWithoutAnyOrientation) {
   WearerView view;
   view.has_orientation = false;
