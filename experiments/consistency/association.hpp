@@ -23,7 +23,7 @@ enum class Validation {
 /// the largest, of those the one with the smallest distance. Stops after `max_nodes` with the best so far.
 class BranchAndBound {
  public:
-  explicit BranchAndBound(double probability = 0.95, int max_nodes = 20'000);
+  explicit BranchAndBound(double probability = 0.95, int max_nodes = 5'000);
   /// One entry a pairing, zero: off.
   std::vector<char> test(const ekf::JointInnovation& innovation);
   /// The last test stopped before it had seen everything.
