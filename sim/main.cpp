@@ -6,6 +6,7 @@
 #include <string>
 
 #include "shared/program/program.hpp"
+#include "shared/recording/dataset_recording.hpp"
 #include "shared/transport/participant_config.hpp"
 #include "sim/live.hpp"
 #include "sim/scenario_file.hpp"
@@ -18,6 +19,7 @@ using namespace cosight;  // NOLINT(google-build-using-namespace): a program's o
 /// What is asked for besides the scene.
 struct Wish {
   std::string folder;
+  std::string recording;
   sim::RunOptions run;
   bool live = false;
   sim::LiveOptions stream;
@@ -25,6 +27,7 @@ struct Wish {
 
 void add_options(CLI::App& app, Wish& wish) {
   app.add_option("--out", wish.folder, "folder for the dataset; with --live for everything but the pictures");
+  app.add_option("--record", wish.recording, "with --out: an MCAP recording of it too");
   app.add_option("--seed", wish.run.seed, "the same seed gives the same bytes")->capture_default_str();
   app.add_option("--threads", wish.run.threads, "that render; the pictures are the same with any number")
       ->check(CLI::Range(1, 64))
@@ -49,6 +52,7 @@ ExitCode write(const sim::SimulatedRun& run, const Wish& wish, const std::atomic
   std::printf("%s: %zu + %zu frames, %.1f s of world in %.1f s, overlap ratio %.3f, %zu known points -> %s\n",
               run.scenario().name.c_str(), report.robot_frames, report.wearer_frames, report.duration,
               took.count(), report.overlap_ratio, report.known_points, wish.folder.c_str());
+  if (!wish.recording.empty() && !report.stopped) recording::record_dataset(wish.folder, wish.recording);
   return report.stopped ? ExitCode::kDataLost : ExitCode::kDone;
 }
 
