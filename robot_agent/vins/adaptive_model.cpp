@@ -1,7 +1,6 @@
 #include "robot_agent/vins/adaptive_model.hpp"
 
 #include <Eigen/LU>
-#include <algorithm>
 #include <cmath>
 
 namespace cosight::vins {
@@ -55,10 +54,8 @@ double geometry_factor(const std::vector<Eigen::Vector3d>& directions) {
 }
 
 double guarded_weight(const TrustOptions& options, const FeatureRecord& feature) {
-  const double by_tracking = std::min(1.0, feature.times_tracked / options.full_trust_after);
-  const double bend = feature.relative_misfit / options.misfit_width;
-  const double straightness = 1.0 / (1.0 + bend * bend);
-  return by_tracking * straightness * straightness;
+  if (feature.relative_misfit <= options.misfit_width) return 1.0;
+  return std::pow(options.misfit_width / feature.relative_misfit, 4);
 }
 
 Trust trust(const TrustOptions& options, const FeatureRecord& feature) {

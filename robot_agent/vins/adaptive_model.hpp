@@ -49,8 +49,7 @@ struct TrustOptions {
   double scale = 0.02;                    ///< s of V26
   double geometry_scale = 0.2;            ///< s of V26 without N; the paper gives none
   double huber_scale = 0.02;              ///< M_s of V30 [standard deviations]
-  double full_trust_after = 8.0;          ///< guarded: N at which a feature counts like in the fixed mode
-  double misfit_width = 2.0;              ///< guarded: misfit that halves the root, in typical ones
+  double misfit_width = 4.0;  ///< guarded: misfit up to which nothing is taken off, in typical ones
 };
 
 /// What is known of a feature when its sightings are weighed.
@@ -66,12 +65,13 @@ double geometry_factor(const std::vector<Eigen::Vector3d>& directions);
 
 /// The guarded mode's factor of the fixed information, in (0, 1]:
 ///
-///   w = min(1, N / full_trust_after) / (1 + (misfit / misfit_width)^2)^2.
+///   w = min(1, misfit_width / misfit)^4,   misfit in typical ones.
 ///
 /// V26 grows without bound with N and with 1/g. Where all features are poor, that pulls the balance from the
-/// IMU to vision (the paper's epoch C). Here a feature is at best trusted like in the fixed mode, and g,
-/// which is the same for all features of a frame and so can only move that balance, is left out. What N
-/// cannot tell, a vehicle followed for long, its misfit does.
+/// IMU to vision (the paper's epoch C). Here a feature is at best trusted like in the fixed mode. g, which is
+/// the same for all features of a frame and so can only move that balance, is left out; so is N, which says
+/// little once a feature has been seen often enough to be used: a vehicle may be followed for long. That its
+/// sightings bend away from every static point, its misfit tells.
 double guarded_weight(const TrustOptions& options, const FeatureRecord& feature);
 
 /// How much a sighting of this feature counts.
