@@ -173,7 +173,7 @@ std::optional<RefinedRig> refine_rig(const ekf::StereoRig& rig, std::span<const 
   }
   refined.T_SF.T = problem.pose(z);
   refined.inliers = mark_inliers(problem, refined.T_SF.T, options.gate_sigmas, refined.is_inlier);
-  if (refined.inliers < options.min_inliers ||
+  if (refined.inliers < options.min_inliers || !(z.squaredNorm() <= options.max_prior_distance) ||
       refined.inliers < options.min_inlier_share * static_cast<double>(usable.size())) {
     return std::nullopt;
   }

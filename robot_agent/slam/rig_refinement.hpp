@@ -17,6 +17,7 @@ struct RigRefinementOptions {
   int independent_matches = 10;  ///< more do not make it better: lens and surfaces err alike in neighbours
   int min_inliers = 6;           ///< fewer say nothing that chance could not
   double min_inlier_share = 0.35;
+  double max_prior_distance = 22.5;  ///< squared, from the sensors' pose: 99.9 % of six degrees of freedom
   std::uint32_t seed = 1;
 };
 

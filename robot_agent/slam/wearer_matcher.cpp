@@ -42,6 +42,8 @@ WornMatches WearerMatcher::match(StereoView& view, const GrayImage& image_S,
 
   RigRefinementOptions refinement;
   refinement.seed = seed_;
+  constexpr int kInliersAtStart = 10;  // the scale of the whole run hangs on this pose
+  if (is_start) refinement.min_inliers = kInliersAtStart;
   const auto refined = refine_rig(view.rig, evidence, refinement);
   if (!refined) {
     matches.corners.clear();

@@ -11,6 +11,8 @@ set multiplot layout 2,5 title 'Figure 14: trajectories from above (gray: truth,
 set size ratio -1
 unset key
 do for [run in runs] {
+  set xrange [*:*]
+  set yrange [*:*]
   stats errors(run, 'mono') skip 1 using 3:4 name 'T' nooutput
   margin = 0.25 * (T_max_x - T_min_x > T_max_y - T_min_y ? T_max_x - T_min_x : T_max_y - T_min_y)
   set xrange [T_min_x - margin:T_max_x + margin]
