@@ -14,7 +14,7 @@ constexpr Stamp kPatience = kNanosecondsPerSecond / 10;
 
 WearerLocator::WearerLocator(const wearer::WearerOptions& options, const wearer::UncertainAngle& yaw_WA,
                              Found found)
-    : tracker_(options), found_(std::move(found)) {
+    : tracker_(options), yaw_WA_(yaw_WA), found_(std::move(found)) {
   tracker_.set_yaw_offset(yaw_WA);
 }
 
@@ -46,6 +46,9 @@ void WearerLocator::add(const FrameEstimate& estimate) {
   const double yaw_sigma = std::sqrt(estimate.T_WS.covariance(kYaw, kYaw));
   const std::lock_guard lock(mutex_);
   tracker_.set_robot_orientation(estimate.stamp, estimate.T_WS.T.q, yaw_sigma);
+  if (estimate.yaw_offset_sigma > 0.0) {
+    tracker_.set_yaw_offset({yaw_WA_.angle + estimate.yaw_offset, estimate.yaw_offset_sigma});
+  }
 }
 
 void WearerLocator::finish() {

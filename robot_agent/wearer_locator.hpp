@@ -19,7 +19,7 @@ class WearerLocator {
   /// sample, one call at a time; it must not call back.
   using Found = std::function<void(Stamp, const std::optional<WearerPoseSample>&)>;
 
-  /// `yaw_WA`: from the AHRS's north to the map's x axis.
+  /// `yaw_WA`: from the AHRS's north to the map's x axis, as far as it is known at the start.
   WearerLocator(const wearer::WearerOptions& options, const wearer::UncertainAngle& yaw_WA, Found found);
 
   void add(const WheelOdometrySample& sample);
@@ -41,6 +41,7 @@ class WearerLocator {
 
   mutable std::mutex mutex_;
   wearer::WearerTracker tracker_;
+  wearer::UncertainAngle yaw_WA_;  ///< as configured; slam may know better
   Found found_;
   std::deque<LaserScanSample> waiting_;  ///< by stamp
   std::optional<Stamp> odometry_stamp_;

@@ -21,7 +21,7 @@ inline LaserScanSample scan_of_person(Stamp stamp, double distance = 1.5) {
   for (int i = 0; i < kPoints; ++i) {
     const double angle = -1.5 + 3.0 * i / (kPoints - 1);
     double range = std::numeric_limits<double>::infinity();
-    for (const double left : {-0.12, 0.12}) {  // along the ray: closest approach, then back to the surface
+    for (const double left : {-0.18, 0.18}) {  // along the ray: closest approach, then back to the surface
       const double along = distance * std::cos(angle) + left * std::sin(angle);
       const double aside = distance * std::sin(angle) - left * std::cos(angle);
       if (along <= 0.0 || std::abs(aside) >= kRadius) continue;

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <vector>
 
 #include "tests/robot_agent/standing_person.hpp"
@@ -74,6 +75,35 @@ TEST_F(WearerLocatorTest, APersonAheadIsFoundInTheSlamCamera) {
   EXPECT_NEAR(pose_->T_SF.T.p.z(), 1.5 + 0.2 - 0.1, 0.1);
   EXPECT_NEAR(pose_->T_SF.T.p.x(), 0.0, 0.05);
   EXPECT_NEAR(pose_->T_SF.T.p.y(), -(1.65 - 0.85), 0.1);
+}
+
+TEST_F(WearerLocatorTest, TheCameraIsWhereTheAhrsAndItsYawOffsetTurnTheHead) {
+  const auto look = [this](Stamp from, double yaw_offset) {
+    for (int i = 0; i < 25; ++i) {
+      const Stamp stamp = from + ms(40 * i);
+      FrameEstimate estimate;
+      estimate.stamp = stamp;
+      estimate.tracking = Tracking::kTracking;
+      estimate.T_WS.T.q = wearer::HeadOptions{}.T_BS.q;  // the robot looks along the map's x axis
+      estimate.T_WS.covariance = 1e-6 * Eigen::Matrix<double, 6, 6>::Identity();
+      estimate.yaw_offset = yaw_offset;
+      estimate.yaw_offset_sigma = 0.01;
+      locator_.add(estimate);
+      locator_.add(AhrsSample{.stamp = stamp,
+                              .q_WH = Eigen::Quaterniond::Identity(),
+                              .orientation_covariance = 1e-4 * Eigen::Matrix3d::Identity(),
+                              .angular_velocity_H = Eigen::Vector3d::Zero(),
+                              .acceleration_H = Eigen::Vector3d::Zero()});
+      odometry(stamp);
+      scan(stamp);
+    }
+    return pose_.value_or(WearerPoseSample{}).T_SF.T.p;
+  };
+  const Eigen::Vector3d ahead = look(ms(0), 0.0);
+  const Eigen::Vector3d to_the_left = look(ms(1000), std::acos(0.0));
+  const double reach = wearer::HeadOptions{}.p_HF.x();  // of the camera from the head's axis
+  EXPECT_NEAR(to_the_left.x() - ahead.x(), -reach, 0.03);
+  EXPECT_NEAR(to_the_left.z() - ahead.z(), -reach, 0.03);
 }
 
 }  // namespace
