@@ -56,7 +56,9 @@ sequence() {
     evaluate_run "$folder/dataset" "$folder/$mode" first_pose "$name $mode" || return 1
   done
   [[ $keep == yes ]] || rm -rf "$folder"/dataset/{robot,wearer}/cam0
-  say "$name: $(sed -n 's/^ *final_error_m *//p' "$folder/collaborative/evaluation.txt") m collaborative, $(sed -n 's/^ *final_error_m *//p' "$folder/mono/evaluation.txt") m mono"
+  for mode in "${modes[@]}"; do
+    say "$name, $mode: $(sed -n 's/^ *final_error_m *//p' "$folder/$mode/evaluation.txt") m"
+  done
 }
 
 # in_parallel: reads lines "NAME SCENE SEED [SIM_OPTION…]", runs each as a sequence of its own; sets names.
