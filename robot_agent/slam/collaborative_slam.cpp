@@ -198,6 +198,7 @@ std::optional<StereoView> CollaborativeSlam::wearer_view(const FrameBundle& bund
   view.image_F = bundle.wearer->image.get();
   view.rig = {filter_.camera_model(), bundle.wearer->camera, *T_SF, options_.search.pixel_sigma,
               options_.pseudo_stereo.wearer_pixel_sigma};
+  view.sensed_T_SF = *T_SF;
   view.overlap = estimate.overlap;
   view.near = std::max(options_.pseudo_stereo.near, expected_near(search_.predictions()));
   view.up_S = filter_.camera().q_WS.conjugate() * Eigen::Vector3d::UnitZ();
@@ -210,15 +211,15 @@ std::optional<StereoView> CollaborativeSlam::wearer_view(const FrameBundle& bund
 // p/(p-q).
 void CollaborativeSlam::learn_yaw_offset(const WearerView& wearer, const StereoView& view) {
   constexpr Eigen::Index kYaw = 2;
-  if (wearer.has_orientation || !wearer.q_WF || !view.prior_T_SF) return;
+  if (wearer.has_orientation || !wearer.q_WF) return;
   const Eigen::Matrix3d R_WS = filter_.camera().q_WS.toRotationMatrix();
   const auto yaw_variance = [&](const UncertainPose& T_SF) {
     return (R_WS * T_SF.covariance.bottomRightCorner<3, 3>() * R_WS.transpose())(kYaw, kYaw);
   };
-  const double p = yaw_variance(*view.prior_T_SF);
+  const double p = yaw_variance(view.sensed_T_SF);
   const double q = yaw_variance(view.rig.T_SF);
   if (!(q < 0.8 * p)) return;
-  const Eigen::Quaterniond step = view.rig.T_SF.T.q * view.prior_T_SF->T.q.conjugate();
+  const Eigen::Quaterniond step = view.rig.T_SF.T.q * view.sensed_T_SF.T.q.conjugate();
   const double yaw = (R_WS * quaternion_log(step))(kYaw)*p / (p - q);
   const Eigen::Quaterniond turn(
       Eigen::AngleAxisd(yaw_offset_.yaw_WA(wearer.stamp).angle + yaw, Eigen::Vector3d::UnitZ()));

@@ -15,8 +15,7 @@ namespace cosight::slam {
 struct StereoView {
   const GrayImage* image_F = nullptr;
   ekf::StereoRig rig;
-  std::optional<UncertainPose>
-      prior_T_SF;  ///< what the sensors said, once the matches have made `rig` better
+  UncertainPose sensed_T_SF;  ///< what the sensors say; the matches may make that of `rig` better
   OverlapEstimate overlap;
   double near = 0.3;                                 ///< nothing nearer to Cs is looked for [m]
   Eigen::Vector3d up_S = -Eigen::Vector3d::UnitY();  ///< z of W

@@ -49,7 +49,6 @@ WornMatches WearerMatcher::match(StereoView& view, const GrayImage& image_S,
     matches.corners.clear();
     return matches;
   }
-  view.prior_T_SF = view.rig.T_SF;
   view.rig.T_SF = refined->T_SF;
   auto is_inlier = refined->is_inlier.begin();
   for (auto& match : matches.landmarks) {
