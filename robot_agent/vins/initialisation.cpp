@@ -29,7 +29,7 @@ Window place(const std::vector<UnplacedFrame>& frames, const Pose& T_BS, const M
              const ImuBias& bias, double gravity) {
   Window window;
   window.T_BS = T_BS;
-  WindowFrame first;
+  WindowFrame& first = window.frames.emplace_back();
   first.stamp = frames.front().features.stamp;
   first.state.T_WB.q = Eigen::Quaterniond::FromTwoVectors(start.g_B, Eigen::Vector3d::UnitZ());
   const Eigen::Vector3d heading = first.state.T_WB.q * Eigen::Vector3d::UnitX();
@@ -37,7 +37,6 @@ Window place(const std::vector<UnplacedFrame>& frames, const Pose& T_BS, const M
   first.state.T_WB.q = (unturn * first.state.T_WB.q).normalized();
   first.state.v_W = first.state.T_WB.q * start.v_B;
   first.state.bias = bias;
-  window.frames.push_back(std::move(first));
   window.add_observations(frames.front().features);
   for (std::size_t i = 1; i < frames.size(); ++i) {
     append_frame(window, frames[i].features, *frames[i].imu, gravity);
