@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "robot_agent/slam_options.hpp"
+#include "robot_agent/wearer/declination.hpp"
 #include "shared/transport/participant_config.hpp"
 
 namespace cosight::robot {
@@ -24,6 +25,8 @@ inbox::InboxOptions read_inbox_options(const ConfigNode& node) {
   o.interpolation.max_interval = milliseconds("max_pose_interval_ms", o.interpolation.max_interval);
   o.mounting.yaw_offset =
       kDegree * node.number("ahrs_yaw_offset_deg", o.mounting.yaw_offset / kDegree, -360.0, 360.0);
+  // The AHRS turns from the magnetic north, maps from the true one.
+  o.mounting.yaw_offset -= wearer::read_declination(node);
   o.mounting.yaw_offset_sigma =
       kDegree * node.number("ahrs_yaw_offset_sigma_deg", o.mounting.yaw_offset_sigma / kDegree, 0.0, 180.0);
   return o;

@@ -188,13 +188,14 @@ Limb fit_cylinder(const Points& points, const Eigen::Vector2d& origin_O, double 
   Limb limb;
   limb.along_ray = (m - origin_O).normalized();
   const Eigen::Vector2d c0 = m + 0.25 * std::numbers::pi * radius * limb.along_ray;
-  const Eigen::Matrix2d P0_inverse = along_and_across(limb.along_ray, 0.3 * radius, 0.6 * radius).inverse();
+  const Eigen::Matrix2d information_of_c0 =
+      along_and_across(limb.along_ray, 0.3 * radius, 0.6 * radius).inverse();
   const double weight = 1.0 / (sigma * sigma + kShapeSigma * kShapeSigma);
   limb.p_O = c0;
-  Eigen::Matrix2d information = P0_inverse;
+  Eigen::Matrix2d information = information_of_c0;
   for (int step = 0; step < kSteps; ++step) {
-    information = P0_inverse;
-    Eigen::Vector2d gradient = P0_inverse * (c0 - limb.p_O);
+    information = information_of_c0;
+    Eigen::Vector2d gradient = information_of_c0 * (c0 - limb.p_O);
     for (const ScanPoint& point : points) {
       const Eigen::Vector2d d = point.p_O - limb.p_O;
       const double distance = std::max(d.norm(), 1e-6);

@@ -114,7 +114,7 @@ double PersonTrack::worst_sigma() const {
 }
 
 bool PersonTrack::has_moved() const {
-  constexpr double kStep = 0.4;  // [m]
+  constexpr double kStep = 0.25;  // [m]
   return (p_O() - born_at).norm() > kStep + 2.0 * worst_sigma();
 }
 

@@ -72,20 +72,21 @@ WearerPoseSample WornCamera::pose(Stamp stamp, const Eigen::Vector2d& p_O, const
                                   const Pose& T_OB) const {
   const Offset offset = from_head(stamp);
   const Pose T_SO = options_.T_BS.inverse() * T_OB.inverse();
-  const Eigen::Vector3d p_F_O = Eigen::Vector3d(p_O.x(), p_O.y(), options_.height) + offset.p;
-  Eigen::Matrix3d Sigma_O = offset.covariance;
-  Sigma_O.topLeftCorner<2, 2>() += covariance;
-  Sigma_O.diagonal() += Eigen::Vector3d(squared(options_.sway_sigma), squared(options_.sway_sigma),
-                                        squared(options_.height_sigma));
+  const Eigen::Vector3d p_OF = Eigen::Vector3d(p_O.x(), p_O.y(), options_.height) + offset.p;
+  Eigen::Matrix3d covariance_O = offset.covariance;
+  covariance_O.topLeftCorner<2, 2>() += covariance;
+  covariance_O.diagonal() += Eigen::Vector3d(squared(options_.sway_sigma), squared(options_.sway_sigma),
+                                             squared(options_.height_sigma));
   WearerPoseSample sample;
   sample.stamp = stamp;
   sample.has_orientation = false;
-  sample.T_SF.T.p = T_SO * p_F_O;
+  sample.T_SF.T.p = T_SO * p_OF;
   // A tilt of the robot turns the whole way from S to F.
   const Eigen::Matrix3d lever = skew(sample.T_SF.T.p);
   const Eigen::Matrix3d R_SO = T_SO.q.toRotationMatrix();
-  Sigma_O = R_SO * Sigma_O * R_SO.transpose() + squared(options_.tilt_sigma) * lever * lever.transpose();
-  sample.T_SF.covariance.topLeftCorner<3, 3>() = 0.5 * (Sigma_O + Sigma_O.transpose());
+  covariance_O =
+      R_SO * covariance_O * R_SO.transpose() + squared(options_.tilt_sigma) * lever * lever.transpose();
+  sample.T_SF.covariance.topLeftCorner<3, 3>() = 0.5 * (covariance_O + covariance_O.transpose());
   return sample;
 }
 
