@@ -18,7 +18,12 @@ void WearerPublisher::publish(const Sample& sample) {
 }
 
 bool WearerPublisher::wait_for_frame_reader(std::chrono::milliseconds timeout) const {
-  return images_.wait_for_readers(1, timeout);
+  if (!images_.wait_for_readers(1, timeout)) return false;
+  // A robot reads orientations as well, and its readers match one after the other: what is sent between is
+  // lost.
+  constexpr std::chrono::milliseconds kMatching{500};
+  orientations_.wait_for_readers(1, kMatching);
+  return true;
 }
 
 bool WearerPublisher::wait_until_delivered(std::chrono::milliseconds timeout) {
