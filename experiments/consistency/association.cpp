@@ -1,7 +1,6 @@
 #include "experiments/consistency/association.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <limits>
 
@@ -118,46 +117,15 @@ std::vector<char> one_point_ransac(const ekf::JointInnovation& innovation, doubl
   return best;
 }
 
-void drop_improbable(const ekf::JointInnovation& innovation, double probability, std::vector<char>& keep) {
-  const auto measurements = innovation.measurements();
-  const Eigen::MatrixXd S = whole_S(innovation);
-  const ekf::ChiSquaredLimits limits(probability, 3);
-  for (double worst = 2.0; worst > 1.0;) {
-    std::vector<int> kept;
-    for (std::size_t i = 0; i < measurements.size(); ++i) {
-      for (int k = 0; keep[i] != 0 && k < measurements[i].rows; ++k)
-        kept.push_back(measurements[i].row + k);
-    }
-    const Eigen::MatrixXd A = Eigen::MatrixXd(S(kept, kept)).inverse();
-    const Eigen::VectorXd u = A * Eigen::VectorXd(innovation.g()(kept));
-    worst = 1.0;
-    std::size_t worst_pairing = keep.size();
-    Eigen::Index row = 0;
-    for (std::size_t i = 0; i < measurements.size(); ++i) {
-      if (keep[i] == 0) continue;
-      const int rows = measurements[i].rows;
-      const Eigen::VectorXd u_k = u.segment(row, rows);
-      const double ratio =
-          u_k.dot(Eigen::MatrixXd(A.block(row, row, rows, rows)).llt().solve(u_k)) / limits(rows);
-      row += rows;
-      if (ratio <= worst) continue;
-      worst = ratio;
-      worst_pairing = i;
-    }
-    if (worst_pairing < keep.size()) keep[worst_pairing] = 0;
-  }
-}
+Validator::Validator(Validation validation)
+    : validation_(validation),
+      joint_compatibility_({.each_probability = validation == Validation::kHohct ? 1.0 : 0.99}) {}
 
 std::vector<char> Validator::test(const ekf::JointInnovation& innovation) {
   switch (validation_) {
     case Validation::kHohct:
+    case Validation::kHohctThenEach:
       return joint_compatibility_.test(innovation).keep;
-    case Validation::kHohctThenEach: {
-      constexpr double kEach = 0.99;
-      std::vector<char> keep = joint_compatibility_.test(innovation).keep;
-      drop_improbable(innovation, kEach, keep);
-      return keep;
-    }
     case Validation::kJcbb:
       return branch_and_bound_.test(innovation);
     case Validation::kOnePointRansac:

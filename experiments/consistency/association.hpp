@@ -14,7 +14,7 @@ enum class Validation {
   kNone,
   kGate,            ///< each by its own chi-squared gate, 99 %
   kHohct,           ///< the gate, then the highest-order compatible hypothesis
-  kHohctThenEach,   ///< after that each pairing by its own gate, given all others
+  kHohctThenEach,   ///< after that each pairing by its own gate, given all others: as slam does it
   kJcbb,            ///< the gate, then joint compatibility branch and bound (Neira and Tardos 2001)
   kOnePointRansac,  ///< the gate, then the consensus of one match's update (Civera 2010)
 };
@@ -51,14 +51,10 @@ class BranchAndBound {
 std::vector<char> one_point_ransac(const ekf::JointInnovation& innovation, double threshold_px = 3.0,
                                    double rescue_probability = 0.99);
 
-/// Takes off, worst first, each kept pairing whose innovation given all other kept ones is outside its gate:
-/// with A = S^-1 and u = A g of the kept, u_k^T A_kk^-1 u_k.
-void drop_improbable(const ekf::JointInnovation& innovation, double probability, std::vector<char>& keep);
-
 /// Any of the ways; a pure function of the innovation.
 class Validator {
  public:
-  explicit Validator(Validation validation) : validation_(validation) {}
+  explicit Validator(Validation validation);
   std::vector<char> test(const ekf::JointInnovation& innovation);
 
  private:

@@ -127,6 +127,23 @@ bool HypothesisSearch<Block>::find_best(int removals, const ChiSquaredLimits& li
 }
 
 template <int Block>
+std::optional<int> HypothesisSearch<Block>::least_probable(const ChiSquaredLimits& limits) const {
+  const Level& level = levels_.front();
+  std::optional<int> worst;
+  double worst_ratio = 1.0;
+  for (int k = 0; k < pairings_; ++k) {
+    const int rows = pairing_rows_[static_cast<std::size_t>(k)];
+    if (rows == 0) continue;
+    const Vector& u = level.u[static_cast<std::size_t>(k)];
+    const double ratio = u.dot(block(level, k, k).inverse() * u) / limits(rows);
+    if (ratio <= worst_ratio) continue;
+    worst_ratio = ratio;
+    worst = k;
+  }
+  return worst;
+}
+
+template <int Block>
 void HypothesisSearch<Block>::take_off(int k) {
   eliminate(levels_.front(), k, 0, scratch_);
   std::swap(levels_.front(), scratch_);

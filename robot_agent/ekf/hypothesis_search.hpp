@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -29,6 +30,9 @@ class HypothesisSearch {
   bool find_best(int removals, const ChiSquaredLimits& limits);
   std::span<const int> best() const { return best_; }
   double best_ratio() const { return best_ratio_; }
+
+  /// Of the pairings outside their own limit given all others that are on, the one farthest outside.
+  std::optional<int> least_probable(const ChiSquaredLimits& limits) const;
 
   /// Takes pairing `k` off for good.
   void take_off(int k);

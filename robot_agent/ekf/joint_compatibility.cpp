@@ -1,17 +1,22 @@
 #include "robot_agent/ekf/joint_compatibility.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
+#include <optional>
 
 namespace cosight::ekf {
 namespace {
 
 constexpr int kTabulatedRows = 600;
+constexpr int kMaxPairingRows = 3;
 
 }  // namespace
 
 JointCompatibility::JointCompatibility(const JointCompatibilityOptions& options)
-    : options_(options), limits_(options.probability, kTabulatedRows) {}
+    : options_(options),
+      limits_(options.probability, kTabulatedRows),
+      each_limits_(options.each_probability, kMaxPairingRows) {}
 
 const Hypothesis& JointCompatibility::test(const JointInnovation& innovation) {
   pairing_rows_.clear();
@@ -31,39 +36,72 @@ const Hypothesis& JointCompatibility::test(const JointInnovation& innovation) {
     hypothesis_.exact = false;
     return hypothesis_;
   }
-  hypothesis_.distance = whitened_.squaredNorm();
-  if (hypothesis_.distance <= hypothesis_.limit) return hypothesis_;
-  invert();
+  hypothesis_.distance = whitened_storage_.head(rows_).squaredNorm();
+  const bool compatible = hypothesis_.distance <= hypothesis_.limit;
+  if (compatible && options_.each_probability >= 1.0) return hypothesis_;
+  invert_factor();
+  if (compatible && each_is_probable()) return hypothesis_;
   if (std::ranges::all_of(pairing_rows_, [](int rows) { return rows == 2; })) {
-    search(pixels_);
+    select(pixels_);
   } else {
-    search(mixed_);
+    select(mixed_);
   }
   return hypothesis_;
 }
 
-/// S = L L^T and L^-1 g.
-bool JointCompatibility::factorise(const JointInnovation& innovation) {
-  L_ = innovation.S_lower();
-  Eigen::Ref<Eigen::MatrixXd> S(L_);
-  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> llt(S);
-  if (llt.info() != Eigen::Success) return false;
-  whitened_ = innovation.g();
-  auto whitened = whitened_.head(innovation.rows());
-  L_.triangularView<Eigen::Lower>().solveInPlace(whitened);
-  return whitened_.allFinite();
+/// Room for the largest innovation so far: what is smaller uses a corner of it.
+void JointCompatibility::make_room(int rows) {
+  if (rows <= L_storage_.rows()) return;
+  L_storage_.resize(rows, rows);
+  L_inverse_storage_.resize(rows, rows);
+  A_storage_.resize(rows, rows);
+  whitened_storage_.resize(rows);
+  u_storage_.resize(rows);
 }
 
-/// A = S^-1 = L^-T L^-1 (both triangles) and u = A g.
-void JointCompatibility::invert() {
-  L_inverse_.setIdentity(L_.rows(), L_.cols());
-  L_.triangularView<Eigen::Lower>().solveInPlace(L_inverse_);
-  A_.setZero(L_.rows(), L_.cols());
-  A_.selfadjointView<Eigen::Lower>().rankUpdate(L_inverse_.transpose());
-  A_.triangularView<Eigen::StrictlyUpper>() = A_.transpose();
-  u_.resize(whitened_.size());
-  for (Eigen::Index i = 0; i < u_.size(); ++i)
-    u_(i) = L_inverse_.col(i).dot(whitened_);
+/// S = L L^T and L^-1 g.
+bool JointCompatibility::factorise(const JointInnovation& innovation) {
+  rows_ = innovation.rows();
+  make_room(rows_);
+  auto L = L_storage_.topLeftCorner(rows_, rows_);
+  L = innovation.S_lower();
+  Eigen::Ref<Eigen::MatrixXd> S(L);
+  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> llt(S);
+  if (llt.info() != Eigen::Success) return false;
+  auto whitened = whitened_storage_.head(rows_);
+  whitened = innovation.g();
+  L.triangularView<Eigen::Lower>().solveInPlace(whitened);
+  return whitened.allFinite();
+}
+
+/// L^-1, a panel of columns at a time from its first row that is not zero, and u = S^-1 g = L^-T L^-1 g.
+void JointCompatibility::invert_factor() {
+  constexpr int kPanel = 16;
+  const auto L = L_storage_.topLeftCorner(rows_, rows_);
+  auto L_inverse = L_inverse_storage_.topLeftCorner(rows_, rows_);
+  L_inverse.setIdentity();
+  for (int i = 0; i < rows_; i += kPanel) {
+    auto panel = L_inverse.block(i, i, rows_ - i, std::min(kPanel, rows_ - i));
+    L.bottomRightCorner(rows_ - i, rows_ - i).triangularView<Eigen::Lower>().solveInPlace(panel);
+  }
+  for (int i = 0; i < rows_; ++i) {
+    u_storage_(i) = L_inverse.col(i).tail(rows_ - i).dot(whitened_storage_.segment(i, rows_ - i));
+  }
+}
+
+/// The usual case, and all of A is not needed for it: A_kk is a product of the columns of L^-1.
+bool JointCompatibility::each_is_probable() const {
+  Eigen::Index row = 0;
+  for (const int rows : pairing_rows_) {
+    const auto columns = L_inverse_storage_.block(row, row, rows_ - row, rows);
+    Eigen::Matrix3d A_kk = Eigen::Matrix3d::Identity();
+    A_kk.topLeftCorner(rows, rows) = columns.transpose().lazyProduct(columns);
+    Eigen::Vector3d u_k = Eigen::Vector3d::Zero();
+    u_k.head(rows) = u_storage_.segment(row, rows);
+    if (!(u_k.dot(A_kk.inverse() * u_k) <= each_limits_(rows))) return false;
+    row += rows;
+  }
+  return true;
 }
 
 template <int Block>
@@ -79,9 +117,19 @@ void JointCompatibility::take_off(HypothesisSearch<Block>& search, std::span<con
 }
 
 template <int Block>
-void JointCompatibility::search(HypothesisSearch<Block>& search) {
+void JointCompatibility::select(HypothesisSearch<Block>& search) {
+  auto A = A_storage_.topLeftCorner(rows_, rows_);
+  A.setZero();
+  A.selfadjointView<Eigen::Lower>().rankUpdate(L_inverse_storage_.topLeftCorner(rows_, rows_).transpose());
+  A.triangularView<Eigen::StrictlyUpper>() = A.transpose();
+  search.start(pairing_rows_, A, u_storage_.head(rows_), hypothesis_.distance);
+  if (hypothesis_.distance > hypothesis_.limit) find_compatible(search);
+  if (options_.each_probability < 1.0) drop_improbable(search);
+}
+
+template <int Block>
+void JointCompatibility::find_compatible(HypothesisSearch<Block>& search) {
   const int pairings = static_cast<int>(pairing_rows_.size());
-  search.start(pairing_rows_, A_, u_, hypothesis_.distance);
   const int exact = std::min(options_.exact_removals, pairings);
   for (int removals = 1; removals <= exact; ++removals) {
     search.find_best(removals, limits_);
@@ -92,6 +140,14 @@ void JointCompatibility::search(HypothesisSearch<Block>& search) {
   while (hypothesis_.rows > 0 && hypothesis_.distance > hypothesis_.limit) {
     search.find_best(1, limits_);
     take_off(search, search.best());
+  }
+}
+
+template <int Block>
+void JointCompatibility::drop_improbable(HypothesisSearch<Block>& search) {
+  while (const std::optional<int> worst = search.least_probable(each_limits_)) {
+    take_off(search, {&*worst, 1});
+    ++hypothesis_.improbable;
   }
 }
 
