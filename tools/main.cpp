@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "tools/aggregate_command.hpp"
+#include "tools/compare_command.hpp"
 #include "tools/evaluate_command.hpp"
 #include "tools/export_command.hpp"
 #include "tools/import_command.hpp"
@@ -26,6 +27,7 @@ int run(int argc, char** argv) {
   cosight::add_evaluate_command(program);
   cosight::add_summarise_command(program);
   cosight::add_aggregate_command(program);
+  cosight::add_compare_command(program);
   cosight::add_record_command(program);
   cosight::add_replay_command(program);
   cosight::add_info_command(program);

@@ -29,6 +29,12 @@ wait_for() {
   wait "$pid"
 }
 
+# wait_for_line PID FILE PATTERN: until a line of FILE matches, 20 s at most, or PID has ended.
+wait_for_line() {
+  local began=$SECONDS
+  while ! grep -qs -- "$3" "$2" && kill -0 "$1" 2>/dev/null && ((SECONDS - began < 20)); do sleep 0.05; done
+}
+
 # run_agents DATASET RUN_DIR MODE [ROBOT_OPTION…]: one run; the robot's results and both logs end in RUN_DIR. A dataset
 # without a wearer runs the robot alone. Variables, each empty for the usual: `gate`, the times at which the wearer looks;
 # `replay_rate`, times real time; `run_domain`, the DDS domain.
@@ -44,6 +50,8 @@ run_agents() {
   robot=$!
   agent_pids+=("$robot")
   if [[ -d $dataset/wearer ]]; then
+    # The robot first: a recorder listens too, and the wearable would take it for the robot that it waits for.
+    wait_for_line "$robot" "$run_dir.robot.log" "robot '.*' on domain"
     "$programs/wearable_agent" --config "$source_dir/config/wearable.yaml" --dataset "$dataset" --domain "$domain" \
       --wait-for-robot 20 --summary "$run_dir.wearable.yaml" ${gate:+--gate "$gate"} ${replay_rate:+--rate "$replay_rate"} >"$run_dir.wearable.log" 2>&1 &
     wearer=$!
