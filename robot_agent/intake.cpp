@@ -57,6 +57,7 @@ void Intake::report(outbox::YamlText& text) const {
       .value("scans_late", counters.scans_late)
       .value("scans_without_odometry", counters.scans_without_odometry)
       .value("ahrs_refused", counters.ahrs_refused)
+      .value("estimates_late", locator_->estimates_late())
       .value("seen", counters.seen)
       .value("predicted", counters.predicted)
       .value("losses", counters.losses);

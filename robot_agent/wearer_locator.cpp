@@ -7,8 +7,9 @@
 namespace cosight::robot {
 namespace {
 
-/// Odometry that is later than this, by the stamps, is not waited for.
+/// Odometry and orientations that are later than this, by the stamps, are not waited for.
 constexpr Stamp kPatience = kNanosecondsPerSecond / 10;
+constexpr std::size_t kMostHeadings = 100;  ///< that wait for a scan
 
 }  // namespace
 
@@ -28,6 +29,8 @@ void WearerLocator::add(const WheelOdometrySample& sample) {
 void WearerLocator::add(const AhrsSample& sample) {
   const std::lock_guard lock(mutex_);
   tracker_.add_ahrs(sample);
+  ahrs_stamp_ = std::max(sample.stamp, ahrs_stamp_.value_or(sample.stamp));
+  use_ready_scans();
 }
 
 void WearerLocator::add(LaserScanSample scan) {
@@ -45,10 +48,12 @@ void WearerLocator::add(const FrameEstimate& estimate) {
   constexpr Eigen::Index kYaw = 5;  // of [dp, dtheta], in the axes of W
   const double yaw_sigma = std::sqrt(estimate.T_WS.covariance(kYaw, kYaw));
   const std::lock_guard lock(mutex_);
-  tracker_.set_robot_orientation(estimate.stamp, estimate.T_WS.T.q, yaw_sigma);
-  if (estimate.yaw_offset_sigma > 0.0) {
-    tracker_.set_yaw_offset({yaw_WA_.angle + estimate.yaw_offset, estimate.yaw_offset_sigma});
-  }
+  if (used_scan_ && *used_scan_ >= estimate.stamp + kEstimateDelay) ++estimates_late_;
+  headings_.push_back({estimate.stamp,
+                       estimate.T_WS.T.q,
+                       yaw_sigma,
+                       {yaw_WA_.angle + estimate.yaw_offset, estimate.yaw_offset_sigma}});
+  if (headings_.size() > kMostHeadings) headings_.pop_front();
 }
 
 void WearerLocator::finish() {
@@ -62,19 +67,36 @@ wearer::WearerCounters WearerLocator::counters() const {
   return tracker_.counters();
 }
 
+std::uint64_t WearerLocator::estimates_late() const {
+  const std::lock_guard lock(mutex_);
+  return estimates_late_;
+}
+
 void WearerLocator::use_ready_scans() {
   while (!waiting_.empty() && is_ready(waiting_.front()))
     use_first();
 }
 
+/// An AHRS that is silent longer than the patience is not waited for at all.
 bool WearerLocator::is_ready(const LaserScanSample& scan) const {
-  return (odometry_stamp_ && *odometry_stamp_ >= scan.stamp) || newest_scan_ - scan.stamp > kPatience;
+  const bool too_long = newest_scan_ - scan.stamp > kPatience;
+  const bool motion_known = odometry_stamp_ && *odometry_stamp_ >= scan.stamp;
+  const bool head_known = !ahrs_stamp_ || *ahrs_stamp_ >= scan.stamp || scan.stamp - *ahrs_stamp_ > kPatience;
+  return too_long || (motion_known && head_known);
 }
 
 void WearerLocator::use_first() {
   const LaserScanSample scan = std::move(waiting_.front());
   waiting_.pop_front();
+  for (; !headings_.empty() && headings_.front().stamp + kEstimateDelay <= scan.stamp; headings_.pop_front())
+    use(headings_.front());
+  used_scan_ = scan.stamp;
   found_(scan.stamp, tracker_.add_scan(scan));
+}
+
+void WearerLocator::use(const Heading& heading) {
+  tracker_.set_robot_orientation(heading.stamp, heading.q_WS, heading.yaw_sigma);
+  if (heading.yaw_WA.sigma > 0.0) tracker_.set_yaw_offset(heading.yaw_WA);
 }
 
 }  // namespace cosight::robot

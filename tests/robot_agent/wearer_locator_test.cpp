@@ -17,9 +17,29 @@ constexpr Stamp ms(std::int64_t milliseconds) {
   return milliseconds * 1'000'000;
 }
 
+AhrsSample head(Stamp stamp) {
+  return {.stamp = stamp,
+          .q_WH = Eigen::Quaterniond::Identity(),
+          .orientation_covariance = 1e-4 * Eigen::Matrix3d::Identity(),
+          .angular_velocity_H = Eigen::Vector3d::Zero(),
+          .acceleration_H = Eigen::Vector3d::Zero()};
+}
+
+FrameEstimate robot_seen(Stamp stamp, double yaw_offset) {
+  FrameEstimate estimate;
+  estimate.stamp = stamp;
+  estimate.tracking = Tracking::kTracking;
+  estimate.T_WS.T.q = wearer::HeadOptions{}.T_BS.q;  // it looks along the map's x axis
+  estimate.T_WS.covariance = 1e-6 * Eigen::Matrix<double, 6, 6>::Identity();
+  estimate.yaw_offset = yaw_offset;
+  estimate.yaw_offset_sigma = 0.01;
+  return estimate;
+}
+
 class WearerLocatorTest : public testing::Test {
  protected:
   void odometry(Stamp stamp) { locator_.add(WheelOdometrySample{.stamp = stamp}); }
+  void orientation(Stamp stamp) { locator_.add(head(stamp)); }
   void scan(Stamp stamp, const char* laser = "laser_front") {
     LaserScanSample sample = scan_of_person(stamp);
     sample.laser = laser;
@@ -64,6 +84,56 @@ TEST_F(WearerLocatorTest, OdometryThatStaysAwayIsNotWaitedForLong) {
   EXPECT_THAT(used_, ElementsAre(ms(0), ms(40), ms(80), ms(120)));
 }
 
+TEST_F(WearerLocatorTest, AScanWaitsForTheOrientationOfItsTime) {
+  orientation(ms(0));
+  odometry(ms(40));
+  scan(ms(30));
+  EXPECT_THAT(used_, IsEmpty());
+  orientation(ms(40));
+  EXPECT_THAT(used_, ElementsAre(ms(30)));
+}
+
+TEST_F(WearerLocatorTest, AnAhrsThatFellSilentIsNotWaitedFor) {
+  orientation(ms(0));
+  odometry(ms(300));
+  scan(ms(90));
+  EXPECT_THAT(used_, IsEmpty());
+  scan(ms(200));
+  EXPECT_THAT(used_, ElementsAre(ms(90), ms(200)));
+}
+
+TEST_F(WearerLocatorTest, HowFastAFrameIsProcessedDoesNotMatterWithinTheDelay) {
+  const auto walk = [](Stamp processing) {
+    std::vector<Eigen::Vector3d> positions;
+    WearerLocator locator({}, {}, [&](Stamp, const std::optional<WearerPoseSample>& pose) {
+      if (pose) positions.push_back(pose->T_SF.T.p);
+    });
+    for (Stamp now = 0; now < ms(2000); now += ms(10)) {
+      if (now % ms(100) == processing)
+        locator.add(robot_seen(now - processing, to_seconds(now - processing)));
+      locator.add(head(now));
+      locator.add(WheelOdometrySample{.stamp = now});
+      if (now % ms(40) == 0) locator.add(scan_of_person(now));
+    }
+    EXPECT_EQ(locator.estimates_late(), 0U);
+    return positions;
+  };
+  const auto quick = walk(ms(0));
+  EXPECT_GT(quick.size(), 20U);
+  EXPECT_EQ(quick, walk(ms(90)));
+}
+
+TEST_F(WearerLocatorTest, AnEstimateThatIsTooLateIsCounted) {
+  for (int i = 0; i < 20; ++i) {
+    odometry(ms(40 * i));
+    scan(ms(40 * i));
+  }
+  locator_.add(robot_seen(ms(600), 0.0));
+  EXPECT_EQ(locator_.estimates_late(), 0U);
+  locator_.add(robot_seen(ms(500), 0.0));
+  EXPECT_EQ(locator_.estimates_late(), 1U);
+}
+
 TEST_F(WearerLocatorTest, APersonAheadIsFoundInTheSlamCamera) {
   for (int i = 0; i < 40; ++i) {
     odometry(ms(40 * i));
@@ -81,19 +151,8 @@ TEST_F(WearerLocatorTest, TheCameraIsWhereTheAhrsAndItsYawOffsetTurnTheHead) {
   const auto look = [this](Stamp from, double yaw_offset) {
     for (int i = 0; i < 25; ++i) {
       const Stamp stamp = from + ms(40 * i);
-      FrameEstimate estimate;
-      estimate.stamp = stamp;
-      estimate.tracking = Tracking::kTracking;
-      estimate.T_WS.T.q = wearer::HeadOptions{}.T_BS.q;  // the robot looks along the map's x axis
-      estimate.T_WS.covariance = 1e-6 * Eigen::Matrix<double, 6, 6>::Identity();
-      estimate.yaw_offset = yaw_offset;
-      estimate.yaw_offset_sigma = 0.01;
-      locator_.add(estimate);
-      locator_.add(AhrsSample{.stamp = stamp,
-                              .q_WH = Eigen::Quaterniond::Identity(),
-                              .orientation_covariance = 1e-4 * Eigen::Matrix3d::Identity(),
-                              .angular_velocity_H = Eigen::Vector3d::Zero(),
-                              .acceleration_H = Eigen::Vector3d::Zero()});
+      locator_.add(robot_seen(stamp, yaw_offset));
+      orientation(stamp);
       odometry(stamp);
       scan(stamp);
     }
