@@ -22,6 +22,7 @@ slam::SearchOptions read_search(const ConfigNode& node) {
   slam::SearchOptions o;
   o.pixel_sigma = node.number("pixel_sigma", o.pixel_sigma, 0.05, 20.0);
   o.gate_probability = node.number("gate_probability", o.gate_probability, 0.5, 0.99999);
+  o.each_probability = node.number("each_probability", o.each_probability, 0.5, 1.0);
   o.min_correlation = node.number("min_correlation", o.min_correlation, 0.0, 1.0);
   o.max_ambiguity = node.number("max_ambiguity", o.max_ambiguity, 0.1, 1.0);
   o.max_radius = node.integer("max_radius", o.max_radius, 3, 500);

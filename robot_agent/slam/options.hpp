@@ -42,6 +42,7 @@ struct MotionOptions {
 struct SearchOptions {
   double pixel_sigma = 0.5;        ///< noise of a found pixel, one axis [px]
   double gate_probability = 0.99;  ///< of the ellipse and of HOHCT's chi-squared limit
+  double each_probability = 0.99;  ///< of a match given all others, after HOHCT; 1 switches that off
   double min_correlation = 0.75;   ///< ZNCC of a match
   double max_ambiguity = 0.95;     ///< second best peak / best; above it the place is ambiguous
   int max_radius = 40;             ///< an ellipse is cut to this half-width [px]
