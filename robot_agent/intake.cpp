@@ -21,14 +21,20 @@ Intake::Intake(inbox::Inbox& inbox, const std::optional<LocatorPlan>& plan)
                    [this](Stamp stamp, const auto& pose) { take_located(stamp, pose); });
 }
 
+void Intake::feed(VinsBackEnd& vins, Estimators estimators) {
+  vins_ = &vins;
+  feeds_slam_ = has_slam(estimators);
+}
+
 void Intake::push(Sample sample) {
+  if (vins_ != nullptr) feed_vins(sample);
   if (auto* const scan = std::get_if<LaserScanSample>(&sample)) {
     if (locator_) locator_->add(std::move(*scan));
   } else if (const auto* const odometry = std::get_if<WheelOdometrySample>(&sample)) {
     if (locator_) locator_->add(*odometry);
   } else if (const auto* const pose = std::get_if<WearerPoseSample>(&sample)) {
     if (takes_tracked_) take_tracked(*pose);
-  } else {
+  } else if (feeds_slam_) {
     inbox_.push(std::move(sample));
   }
 }
@@ -44,6 +50,7 @@ void Intake::robot_is_at(const FrameEstimate& estimate) {
 }
 
 void Intake::close() {
+  if (vins_ != nullptr) vins_->finish();
   if (locator_) locator_->finish();
   inbox_.close();
 }
@@ -62,6 +69,11 @@ void Intake::report(outbox::YamlText& text) const {
       .value("predicted", counters.predicted)
       .value("losses", counters.losses);
   if (located_) outbox::report(text, "dds_wearer_by_laser", located_->counters());
+}
+
+void Intake::feed_vins(const Sample& sample) {
+  if (const auto* const imu = std::get_if<ImuSample>(&sample)) vins_->push(*imu);
+  if (const auto* const frame = std::get_if<ImageSample>(&sample)) vins_->push(*frame);
 }
 
 void Intake::take_tracked(const WearerPoseSample& pose) {

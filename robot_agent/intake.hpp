@@ -3,8 +3,10 @@
 #include <atomic>
 #include <optional>
 
+#include "robot_agent/estimators.hpp"
 #include "robot_agent/inbox/inbox.hpp"
 #include "robot_agent/outbox/yaml_text.hpp"
+#include "robot_agent/vins_back_end.hpp"
 #include "robot_agent/wearer_locator.hpp"
 #include "shared/transport/participant.hpp"
 #include "shared/transport/publisher.hpp"
@@ -29,6 +31,10 @@ class Intake {
   /// The same, but what the lasers say is not published.
   Intake(inbox::Inbox& inbox, const std::optional<LocatorPlan>& plan);
 
+  /// Frames and IMU samples go to `vins` as well, or to it alone. Before the first sample; it has to outlive
+  /// this.
+  void feed(VinsBackEnd& vins, Estimators estimators);
+
   /// Of the robot's own sensors, or of its tracker.
   void push(Sample sample);
   /// False: the lasers alone say where the wearer is.
@@ -44,11 +50,14 @@ class Intake {
   void report(outbox::YamlText& text) const;
 
  private:
+  void feed_vins(const Sample& sample);
   void take_tracked(const WearerPoseSample& pose);
   void take_located(Stamp stamp, const std::optional<WearerPoseSample>& pose);
 
   inbox::Inbox& inbox_;
   bool takes_tracked_;
+  VinsBackEnd* vins_ = nullptr;
+  bool feeds_slam_ = true;
   std::atomic<bool> tracker_speaks_ = false;
   std::optional<transport::Publisher<WearerPoseSample>> located_;
   std::optional<WearerLocator> locator_;

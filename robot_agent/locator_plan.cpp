@@ -4,6 +4,7 @@ namespace cosight::robot {
 
 std::optional<LocatorPlan> plan_locator(const RobotOptions& options, const AgentInput& input) {
   using enum WearerPoseFrom;
+  if (!has_slam(options.estimators)) return std::nullopt;
   const bool is_auto = options.wearer.pose_from == kAuto;
   const bool can_locate = !input.lasers.empty() && input.T_BS;
   const bool locates = is_auto ? can_locate && !input.has_wearer_pose : options.wearer.pose_from == kLaser;

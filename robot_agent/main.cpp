@@ -12,6 +12,11 @@ namespace {
 
 using namespace cosight;  // NOLINT(google-build-using-namespace): a program's own file
 
+const char* mode_of(const robot::RobotOptions& options) {
+  if (!robot::has_slam(options.estimators)) return "vins";
+  return options.slam.mode == slam::Mode::kMono ? "mono" : "collaborative";
+}
+
 /// Live or offline.
 template <class Agent>
 ExitCode run_to_the_end(Agent& agent) {
@@ -29,8 +34,8 @@ ExitCode run_to_the_end(Agent& agent) {
 ExitCode run(const ConfigFile& config, const std::atomic<bool>& stop) {
   const auto options = robot::read_robot_options(config.root());
   config.refuse_unknown_keys();
-  const char* mode = options.slam.mode == slam::Mode::kMono ? "mono" : "collaborative";
-  const outbox::RunDescription description{COSIGHT_VERSION, mode, config.resolved()};
+  const outbox::RunDescription description{COSIGHT_VERSION, mode_of(options), config.resolved(),
+                                           robot::has_slam(options.estimators)};
   if (options.input.recording.empty()) {
     robot::RobotAgent agent(options, description, stop);
     return run_to_the_end(agent);
@@ -57,6 +62,7 @@ int main(int argc, char** argv) {
       .option(
           "--from", "input.recording",
           "MCAP recording, without DDS; with --rate 0 as fast as possible; --dataset as for --from-topics")
+      .option("--only", "only", "vins: without slam; slam: without vins")
       .option("--wearer-pose", "wearer.pose_from", "where the wearer is: tracker, laser or auto")
       .option("--run-dir", "run_dir", "folder for trajectory, map, log and summary")
       .option("--wait-for-wearer", "start.wait_for_wearer",

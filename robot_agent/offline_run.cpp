@@ -1,6 +1,7 @@
 #include "robot_agent/offline_run.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 #include <variant>
 
@@ -39,8 +40,15 @@ OfflineRun::OfflineRun(const RobotOptions& options, const outbox::RunDescription
       input_(with_recorded_camera(prepare_input(options.input, Agent::kRobot, stop), reader_)),
       inbox_(with_camera(options.inbox, input_.camera), [this] { return arrival_; }),
       intake_(inbox_, plan_locator(options, input_)),
-      slam_(input_.camera, options.slam, input_.known_points),
-      record_(outbox::RunFolder(options.run_dir), description) {}
+      record_(outbox::RunFolder(options.run_dir), description) {
+  if (has_slam(options.estimators)) slam_.emplace(input_.camera, options.slam, input_.known_points);
+  if (has_vins(options.estimators)) {
+    vins::VinsThreadOptions vins = options.vins;
+    vins.never_drop = true;  // so that nothing depends on how fast it is
+    vins_.emplace(vins, input_, record_.folder(), nullptr);
+    intake_.feed(*vins_, options.estimators);
+  }
+}
 
 std::vector<std::string> OfflineRun::run(const Progress& progress) {
   began_ = clock_.now();
@@ -50,6 +58,7 @@ std::vector<std::string> OfflineRun::run(const Progress& progress) {
     arrival_ = std::max(arrival_, event->log_time);
     push(std::move(*event));
     process_ready(progress);
+    if (!slam_ && progress) progress(vins_->status());
   }
   intake_.close();
   while (!inbox_.finished()) {
@@ -86,11 +95,11 @@ void OfflineRun::push(recording::RecordedEvent&& event) {
 void OfflineRun::process_ready(const Progress& progress) {
   while (auto bundle = inbox_.pop(0)) {
     bundle->decode_ms = 0.0;  // the only thing in it that another run would not repeat
-    const FrameEstimate estimate = slam_.process(*bundle);
+    const FrameEstimate estimate = slam_->process(*bundle);
     intake_.robot_is_at(estimate);
     record_.add(*bundle, estimate);
     const auto line = status_.update(*bundle, estimate, {.lost = inbox_.counters().robot_lost}, clock_.now());
-    if (line && progress) progress(*line);
+    if (line && progress) progress(vins_ ? *line + "  " + vins_->status() : *line);
   }
 }
 
@@ -98,18 +107,21 @@ std::vector<std::string> OfflineRun::finish() {
   const inbox::InboxCounters counted = inbox_.counters();
   const double run_seconds = to_seconds(clock_.now() - began_);
   const double recorded_seconds = to_seconds(reader_.contents().end - reader_.contents().start);
-  auto problems = record_.finish(slam_.map(), run_seconds, [&](outbox::YamlText& text) {
-    text.section("recording")
-        .value("seconds", recorded_seconds)
-        .value("speed_over_real_time", run_seconds > 0.0 ? recorded_seconds / run_seconds : 0.0)
-        .value("delivered", source_.delivered())
-        .value("unusable", source_.unusable())
-        .value("damaged", reader_.contents().damaged);
-    text.section("inbox").counts(inbox::named_counts(counted)).top();
-    intake_.report(text);
-  });
+  auto problems = record_.finish(
+      slam_ ? slam_->map() : std::vector<MapPoint>{}, run_seconds, [&](outbox::YamlText& text) {
+        text.section("recording")
+            .value("seconds", recorded_seconds)
+            .value("speed_over_real_time", run_seconds > 0.0 ? recorded_seconds / run_seconds : 0.0)
+            .value("delivered", source_.delivered())
+            .value("unusable", source_.unusable())
+            .value("damaged", reader_.contents().damaged);
+        if (slam_) text.section("inbox").counts(inbox::named_counts(counted)).top();
+        intake_.report(text);
+        if (vins_) vins_->report(text);
+      });
   if (const auto lost = source_.unusable() + reader_.contents().damaged; lost > 0)
     problems.push_back(std::to_string(lost) + " messages or chunks of the recording could not be used");
+  if (vins_) std::ranges::move(vins_->problems(), std::back_inserter(problems));
   return problems;
 }
 

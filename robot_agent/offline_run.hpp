@@ -3,6 +3,7 @@
 #include <atomic>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -46,8 +47,9 @@ class OfflineRun {
   Stamp arrival_ = 0;  ///< log time of the newest event: the inbox's clock
   inbox::Inbox inbox_;
   Intake intake_;
-  slam::CollaborativeSlam slam_;
+  std::optional<slam::CollaborativeSlam> slam_;  ///< none when VINS runs alone
   outbox::RunRecord record_;
+  std::optional<VinsBackEnd> vins_;
   outbox::StatusText status_;
   SteadyClock clock_;
   Stamp began_ = 0;

@@ -32,6 +32,16 @@ inbox::InboxOptions read_inbox_options(const ConfigNode& node) {
   return o;
 }
 
+enum class Only { kAll, kSlam, kVins };
+
+Estimators read_estimators(const ConfigNode& root) {
+  const bool enable = root.section("vins").boolean("enable", false);
+  const Only only =
+      root.choice("only", Only::kAll, {{"all", Only::kAll}, {"slam", Only::kSlam}, {"vins", Only::kVins}});
+  if (only == Only::kVins) return Estimators::kVins;
+  return enable && only == Only::kAll ? Estimators::kSlamAndVins : Estimators::kSlam;
+}
+
 }  // namespace
 
 RobotOptions read_robot_options(const ConfigNode& root) {
@@ -48,6 +58,8 @@ RobotOptions read_robot_options(const ConfigNode& root) {
   // The inbox turns by what is configured; what that leaves open is slam's to find out.
   options.slam.yaw_offset.prior.sigma = options.inbox.mounting.yaw_offset_sigma;
   options.wearer = read_wearer_section(root.section("wearer"));
+  options.estimators = read_estimators(root);
+  options.vins = read_vins_options(root.section("vins"));
   const ConfigNode start = root.section("start");
   options.wait_for_wearer = start.number("wait_for_wearer", options.wait_for_wearer, 0.0, 86'400.0);
   options.wait_for_sensors = start.number("wait_for_sensors", options.wait_for_sensors, 0.0, 86'400.0);

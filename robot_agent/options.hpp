@@ -3,8 +3,10 @@
 #include <filesystem>
 #include <string>
 
+#include "robot_agent/estimators.hpp"
 #include "robot_agent/inbox/options.hpp"
 #include "robot_agent/slam/options.hpp"
+#include "robot_agent/vins_options.hpp"
 #include "robot_agent/wearer_options.hpp"
 #include "shared/config/config.hpp"
 #include "shared/dataset/agent_input.hpp"
@@ -22,6 +24,8 @@ struct RobotOptions {
   inbox::InboxOptions inbox;
   slam::SlamOptions slam;
   WearerSection wearer;
+  Estimators estimators = Estimators::kSlam;
+  vins::VinsThreadOptions vins;
   double wait_for_wearer = 10.0;   ///< before the first frame [s]; then the robot goes on alone
   double wait_for_sensors = 60.0;  ///< whose calibration only their topic tells [s]
   std::filesystem::path run_dir = "runs/robot";

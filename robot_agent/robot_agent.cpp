@@ -2,7 +2,9 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <chrono>
+#include <iterator>
 
 #include "robot_agent/locator_plan.hpp"
 #include "shared/transport/robot_topic_source.hpp"
@@ -36,6 +38,13 @@ AgentInput with_received_camera(AgentInput input, const RobotOptions& options,
   return input;
 }
 
+/// What is read from files can wait until VINS is done with it; what is live, or pretends to be, can't.
+vins::VinsThreadOptions with_patience(const RobotOptions& options) {
+  vins::VinsThreadOptions vins = options.vins;
+  vins.never_drop = !options.input.topics && options.input.device.empty() && options.replay.rate <= 0.0;
+  return vins;
+}
+
 Stamp steady_now() {
   return std::chrono::steady_clock::now().time_since_epoch().count();
 }
@@ -51,12 +60,18 @@ RobotAgent::RobotAgent(const RobotOptions& options, const outbox::RunDescription
                                   stop)),
       inbox_(with_camera(options.inbox, input_.camera)),
       intake_(inbox_, participant_, plan_locator(options, input_)),
-      slam_(input_.camera, options.slam, input_.known_points, steady_now),
       record_(outbox::RunFolder(options.run_dir), description),
       publisher_(participant_),
       presence_(participant_, transport::topics::kRobotHeartbeat, options.agent_id),
-      wearer_(participant_, inbox_, intake_, !input_.has_wearer_pose && intake_.takes_tracked_poses()),
       sensors_(input_, options, participant_, intake_, inbox_, stop) {
+  if (has_slam(options.estimators)) {
+    slam_.emplace(input_.camera, options.slam, input_.known_points, steady_now);
+    wearer_.emplace(participant_, inbox_, intake_, !input_.has_wearer_pose && intake_.takes_tracked_poses());
+  }
+  if (has_vins(options.estimators)) {
+    vins_.emplace(with_patience(options), input_, record_.folder(), &participant_);
+    intake_.feed(*vins_, options.estimators);
+  }
   spdlog::info("robot '{}' on domain {}: {}", options.agent_id, options.dds.domain, sensors_.description());
 }
 
@@ -67,17 +82,19 @@ std::vector<std::string> RobotAgent::run(const Progress& progress) {
   while (!inbox_.finished()) {
     constexpr Stamp kPatience = kNanosecondsPerSecond / 10;
     if (const auto bundle = inbox_.pop(kPatience)) process(*bundle, progress);
+    if (!slam_ && progress) progress(vins_->status());
   }
   return finish();
 }
 
 void RobotAgent::wait_for_wearer() {
-  const bool needs_no_wearer = options_.slam.mode == slam::Mode::kMono && !input_.known_points.empty();
+  const bool needs_no_wearer =
+      !wearer_ || (options_.slam.mode == slam::Mode::kMono && !input_.known_points.empty());
   if (needs_no_wearer || options_.wait_for_wearer <= 0.0) return;
   spdlog::info("waiting up to {:g} s for a wearer on domain {}", options_.wait_for_wearer,
                options_.dds.domain);
   const milliseconds patience(static_cast<std::int64_t>(1e3 * options_.wait_for_wearer));
-  if (wearer_.wait_for_wearer(patience, stop_)) return;
+  if (wearer_->wait_for_wearer(patience, stop_)) return;
   spdlog::warn(
       "no wearer came on domain {}; going on without one (start wearable_agent, or give both the same "
       "--domain)",
@@ -85,29 +102,31 @@ void RobotAgent::wait_for_wearer() {
 }
 
 void RobotAgent::process(const FrameBundle& bundle, const Progress& progress) {
-  const FrameEstimate estimate = slam_.process(bundle);
+  const FrameEstimate estimate = slam_->process(bundle);
   intake_.robot_is_at(estimate);
   record_.add(bundle, estimate);
-  publisher_.publish(estimate, [this] { return slam_.map(); });
-  const outbox::LinkState link{.lost = wearer_.frames_lost() + inbox_.counters().robot_lost,
+  publisher_.publish(estimate, [this] { return slam_->map(); });
+  const outbox::LinkState link{.lost = wearer_->frames_lost() + inbox_.counters().robot_lost,
                                .worn_behind = inbox_.worn_behind(),
                                .wearer_offset = inbox_.stamps().wearer_offset()};
   const auto line = status_.update(bundle, estimate, link, clock_.now());
-  if (line && progress) progress(*line);
+  if (line && progress) progress(vins_ ? *line + "  " + vins_->status() : *line);
 }
 
 std::vector<std::string> RobotAgent::finish() {
   constexpr milliseconds kPatience{500};
   publisher_.finish(kPatience);
   const inbox::InboxCounters counted = inbox_.counters();
-  auto problems =
-      record_.finish(slam_.map(), to_seconds(clock_.now() - started_), [&](outbox::YamlText& text) {
-        text.section("inbox").counts(inbox::named_counts(counted)).top();
-        sensors_.report(text);
-        wearer_.report(text);
-        intake_.report(text);
-        publisher_.report(text);
-      });
+  auto problems = record_.finish(slam_ ? slam_->map() : std::vector<MapPoint>{},
+                                 to_seconds(clock_.now() - started_), [&](outbox::YamlText& text) {
+                                   if (slam_)
+                                     text.section("inbox").counts(inbox::named_counts(counted)).top();
+                                   sensors_.report(text);
+                                   if (wearer_) wearer_->report(text);
+                                   intake_.report(text);
+                                   if (slam_) publisher_.report(text);
+                                   if (vins_) vins_->report(text);
+                                 });
   if (const auto lost = sensors_.counters().lost(); lost > 0) {
     problems.push_back(
         std::to_string(lost) +
@@ -119,6 +138,7 @@ std::vector<std::string> RobotAgent::finish() {
   if (const auto lost = counted.robot_undecodable + counted.robot_wrong_size; lost > 0) {
     problems.push_back(std::to_string(lost) + " robot images could not be decoded");
   }
+  if (vins_) std::ranges::move(vins_->problems(), std::back_inserter(problems));
   return problems;
 }
 

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,7 @@
 
 namespace cosight::robot {
 
-/// The robot's side: sensors -> inbox -> slam -> outbox, one estimating thread.
+/// The robot's side: sensors -> inbox -> slam -> outbox, one estimating thread; vins beside it, or alone.
 class RobotAgent {
  public:
   using Progress = std::function<void(const std::string& line)>;
@@ -46,12 +47,13 @@ class RobotAgent {
   AgentInput input_;
   inbox::Inbox inbox_;
   Intake intake_;
-  slam::CollaborativeSlam slam_;
+  std::optional<slam::CollaborativeSlam> slam_;
   outbox::RunRecord record_;
+  std::optional<VinsBackEnd> vins_;
   outbox::StatusText status_;
   outbox::EstimatePublisher publisher_;
   transport::AgentPresence presence_;
-  WearerLink wearer_;
+  std::optional<WearerLink> wearer_;  ///< none without slam
   OwnSensors sensors_;
   SteadyClock clock_;
   Stamp started_ = 0;

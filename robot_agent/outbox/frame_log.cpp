@@ -127,13 +127,13 @@ std::string frame_log_row(const FrameBundle& bundle, const FrameEstimate& estima
   return row;
 }
 
-std::string trajectory_line(const FrameEstimate& estimate) {
-  const Eigen::Vector3d& p = estimate.T_WS.T.p;
-  const Eigen::Quaterniond& q = estimate.T_WS.T.q;
+std::string trajectory_line(Stamp stamp, const Pose& T_WS) {
+  const Eigen::Vector3d& p = T_WS.p;
+  const Eigen::Quaterniond& q = T_WS.q;
   std::array<char, 256> pose{};
   std::snprintf(pose.data(), pose.size(), " %.9g %.9g %.9g %.9g %.9g %.9g %.9g", p.x(), p.y(), p.z(), q.x(),
                 q.y(), q.z(), q.w());
-  return seconds_text(estimate.stamp) + pose.data();
+  return seconds_text(stamp) + pose.data();
 }
 
 double frame_ms(const FrameBundle& bundle, const FrameEstimate& estimate) {

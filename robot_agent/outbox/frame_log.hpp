@@ -11,8 +11,8 @@ namespace cosight::outbox {
 std::string frame_log_header();
 std::string frame_log_row(const FrameBundle& bundle, const FrameEstimate& estimate);
 
-/// One line of trajectory.tum: `t px py pz qx qy qz qw` of T_WS, t in seconds to the nanosecond.
-std::string trajectory_line(const FrameEstimate& estimate);
+/// One line of a trajectory: `t px py pz qx qy qz qw` of T_WS, t in seconds to the nanosecond.
+std::string trajectory_line(Stamp stamp, const Pose& T_WS);
 
 /// Wall time of the frame, decoding included [ms]. Slam may have counted the decoding in already.
 double frame_ms(const FrameBundle& bundle, const FrameEstimate& estimate);

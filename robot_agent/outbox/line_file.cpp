@@ -50,6 +50,12 @@ void LineFile::close() {
   descriptor_ = -1;
 }
 
+std::optional<std::string> LineFile::loss() const {
+  if (lost_lines_ == 0) return std::nullopt;
+  return path_.string() + ": " + std::to_string(lost_lines_) +
+         " lines are missing: " + (failure_.empty() ? "the disk was full for too long" : failure_);
+}
+
 /// A line that only went out in part goes on where it stopped at the next attempt.
 void LineFile::write_waiting() {
   std::size_t written = 0;

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -27,6 +28,8 @@ class LineFile {
 
   const std::filesystem::path& path() const { return path_; }
   std::uint64_t lost_lines() const { return lost_lines_; }
+  /// What is missing and why, in a sentence; nothing when all lines went out.
+  std::optional<std::string> loss() const;
   /// Why the last write failed; empty while all is well.
   const std::string& failure() const { return failure_; }
 

@@ -19,44 +19,34 @@ bool write_text(const std::filesystem::path& path, const std::string& text) {
   return !file.fail();
 }
 
-std::string lost_lines(const LineFile& file) {
-  return file.path().string() + ": " + std::to_string(file.lost_lines()) + " lines are missing: " +
-         (file.failure().empty() ? "the disk was full for too long" : file.failure());
-}
-
 }  // namespace
 
 RunRecord::RunRecord(const RunFolder& folder, RunDescription description)
-    : folder_(folder.path()),
-      description_(std::move(description)),
-      trajectory_(folder / "trajectory.tum"),
-      frames_(folder / "frames.csv") {
-  trajectory_.append("# T_WS: t[s] px py pz[m] qx qy qz qw");
-  frames_.append(frame_log_header());
+    : folder_(folder.path()), description_(std::move(description)) {
+  if (description_.has_slam) {
+    trajectory_.emplace(folder / "trajectory.tum").append("# T_WS: t[s] px py pz[m] qx qy qz qw");
+    frames_.emplace(folder / "frames.csv").append(frame_log_header());
+  }
   if (!write_text(folder / "config.yaml", description_.config)) {
     throw OutputError((folder / "config.yaml").string() + ": can't be written");
   }
 }
 
 void RunRecord::add(const FrameBundle& bundle, const FrameEstimate& estimate) {
-  trajectory_.append(trajectory_line(estimate));
-  frames_.append(frame_log_row(bundle, estimate));
+  trajectory_->append(trajectory_line(estimate.stamp, estimate.T_WS.T));
+  frames_->append(frame_log_row(bundle, estimate));
   statistics_.add(bundle, estimate);
 }
 
 std::vector<std::string> RunRecord::finish(std::span<const MapPoint> map, double run_seconds,
                                            const Report& report) {
   std::vector<std::string> problems;
-  for (LineFile* file : {&trajectory_, &frames_}) {
-    file->close();
-    if (file->lost_lines() > 0) problems.push_back(lost_lines(*file));
+  for (auto* file : {&trajectory_, &frames_}) {
+    if (!*file) continue;
+    (*file)->close();
+    if (const auto loss = (*file)->loss()) problems.push_back(*loss);
   }
-  try {
-    map::write_ply(folder_ / "map.ply", map);
-    map::write_pcd(folder_ / "map.pcd", map);
-  } catch (const map::MapFileError& error) {
-    problems.emplace_back(error.what());
-  }
+  if (description_.has_slam) write_map(map, problems);
   const std::filesystem::path path = folder_ / "summary.yaml";
   if (!write_text(path, summary(map.size(), run_seconds, report))) {
     problems.push_back(path.string() + ": can't be written");
@@ -64,8 +54,13 @@ std::vector<std::string> RunRecord::finish(std::span<const MapPoint> map, double
   return problems;
 }
 
-const std::string& RunRecord::failure() const {
-  return trajectory_.failure().empty() ? frames_.failure() : trajectory_.failure();
+void RunRecord::write_map(std::span<const MapPoint> map, std::vector<std::string>& problems) const {
+  try {
+    map::write_ply(folder_ / "map.ply", map);
+    map::write_pcd(folder_ / "map.pcd", map);
+  } catch (const map::MapFileError& error) {
+    problems.emplace_back(error.what());
+  }
 }
 
 std::string RunRecord::summary(std::size_t map_points, double run_seconds, const Report& report) const {
@@ -74,10 +69,12 @@ std::string RunRecord::summary(std::size_t map_points, double run_seconds, const
   text.value("version", description_.version).value("mode", description_.mode);
   text.value("run_s", run_seconds)
       .value("cpu_percent", run_seconds > 0.0 ? 100.0 * usage.cpu_seconds / run_seconds : 0.0)
-      .value("peak_memory_mb", usage.peak_memory_mb)
-      .value("map_points", static_cast<std::uint64_t>(map_points))
-      .value("lost_lines", trajectory_.lost_lines() + frames_.lost_lines());
-  statistics_.report(text);
+      .value("peak_memory_mb", usage.peak_memory_mb);
+  if (description_.has_slam) {
+    text.value("map_points", static_cast<std::uint64_t>(map_points))
+        .value("lost_lines", trajectory_->lost_lines() + frames_->lost_lines());
+    statistics_.report(text);
+  }
   if (report) report(text);
   return text.text();
 }

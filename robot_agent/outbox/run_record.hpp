@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,12 +19,14 @@ namespace cosight::outbox {
 /// What a run was, for its summary.
 struct RunDescription {
   std::string version;
-  std::string mode;    ///< "collaborative", "mono"
-  std::string config;  ///< everything that was set, as yaml
+  std::string mode;      ///< "collaborative", "mono"
+  std::string config;    ///< everything that was set, as yaml
+  bool has_slam = true;  ///< false: without the files and figures of slam
 };
 
 /// The files of one run: `config.yaml` at the start, `trajectory.tum` and `frames.csv` frame by frame,
-/// `map.ply`, `map.pcd` and `summary.yaml` at the end. A run that is killed keeps every frame but the last.
+/// `map.ply`, `map.pcd` and `summary.yaml` at the end. Without slam only the first and the last. A run that
+/// is killed keeps every frame but the last.
 class RunRecord {
  public:
   /// Throws OutputError when the folder can't be written.
@@ -41,16 +44,15 @@ class RunRecord {
 
   const RunStatistics& statistics() const { return statistics_; }
   const std::filesystem::path& folder() const { return folder_; }
-  /// Why files can't grow at present ("No space left on device"); empty while all is well.
-  const std::string& failure() const;
 
  private:
+  void write_map(std::span<const MapPoint> map, std::vector<std::string>& problems) const;
   std::string summary(std::size_t map_points, double run_seconds, const Report& report) const;
 
   std::filesystem::path folder_;
   RunDescription description_;
-  LineFile trajectory_;
-  LineFile frames_;
+  std::optional<LineFile> trajectory_;  ///< of slam
+  std::optional<LineFile> frames_;
   RunStatistics statistics_;
 };
 

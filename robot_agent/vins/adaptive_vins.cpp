@@ -32,7 +32,7 @@ VinsEstimate AdaptiveVins::process(const FeatureFrame& frame) {
 }
 
 VinsEstimate AdaptiveVins::initialise_with(const FeatureFrame& frame) {
-  VinsEstimate estimate{.status = VinsStatus::kInitialising};
+  VinsEstimate estimate{.status = VinsStatus::kInitialising, .initialisation = last_outcome_};
   UnplacedFrame next{frame, std::nullopt};
   if (!waiting_.empty()) {
     // A frame too soon after the last one is left out; the IMU samples stay for the next.
@@ -47,7 +47,7 @@ VinsEstimate AdaptiveVins::initialise_with(const FeatureFrame& frame) {
   }
   Initialisation started =
       initialise({waiting_.begin(), waiting_.end()}, T_BS_, options_.initialisation, options_.window);
-  estimate.initialisation = started.outcome;
+  estimate.initialisation = last_outcome_ = started.outcome;
   if (started.window) {
     odometry_.start(std::move(*started.window));
     tracking_ = true;
@@ -66,6 +66,7 @@ VinsEstimate AdaptiveVins::track(const FeatureFrame& frame) {
   if (estimate.failure != Failure::kNone) {
     estimate.status = VinsStatus::kFailed;
     tracking_ = false;
+    last_outcome_ = InitialisationOutcome::kTooFewFrames;
     ++restarts_;
   }
   return estimate;

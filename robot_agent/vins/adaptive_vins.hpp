@@ -59,6 +59,7 @@ class AdaptiveVins {
   WindowOdometry odometry_;
   bool tracking_ = false;
   std::deque<UnplacedFrame> waiting_;
+  InitialisationOutcome last_outcome_ = InitialisationOutcome::kTooFewFrames;  ///< why it is not tracking yet
   Stamp last_frame_ = 0;
   int restarts_ = 0;
 };

@@ -1,11 +1,16 @@
 #include "robot_agent/vins/vins_thread.hpp"
 
+#include <optional>
 #include <utility>
 
 namespace cosight::vins {
 
-VinsThread::VinsThread(const VinsThreadOptions& options, const CameraModel& camera, const Pose& T_BS)
-    : options_(options), tracker_(camera, options.tracker), vins_(options.vins, T_BS) {
+VinsThread::VinsThread(const VinsThreadOptions& options, const CameraModel& camera, const Pose& T_BS,
+                       Found found)
+    : options_(options),
+      found_(std::move(found)),
+      tracker_(camera, options.tracker),
+      vins_(options.vins, T_BS) {
   thread_ = std::thread([this] { run(); });
 }
 
@@ -15,9 +20,12 @@ VinsThread::~VinsThread() {
 
 void VinsThread::push_imu(const ImuSample& sample) {
   {
-    const std::lock_guard lock(mutex_);
-    if (imu_.size() >= options_.max_imu_samples) {
-      counters_.imu_refused += imu_.size();  // without images, old samples are of no use
+    std::unique_lock lock(mutex_);
+    const auto has_room = [&] { return imu_.size() < options_.max_imu_samples; };
+    // Samples that no image takes would wait for ever: then, as for live input, the old ones go.
+    if (options_.never_drop) changed_.wait(lock, [&] { return ended_ || has_room() || !can_process(); });
+    if (!has_room()) {
+      counters_.imu_refused += imu_.size();
       imu_.clear();
     }
     ++counters_.imu_samples;
@@ -27,7 +35,7 @@ void VinsThread::push_imu(const ImuSample& sample) {
   changed_.notify_all();
 }
 
-void VinsThread::push_image(Stamp stamp, GrayImage image) {
+void VinsThread::push_image(Stamp stamp, Decode decode) {
   {
     std::unique_lock lock(mutex_);
     const auto has_room = [&] { return images_.size() < options_.max_images; };
@@ -43,14 +51,9 @@ void VinsThread::push_image(Stamp stamp, GrayImage image) {
       ++counters_.images_dropped;
       images_.pop_front();
     }
-    images_.push_back({stamp, std::move(image)});
+    images_.push_back({stamp, std::move(decode)});
   }
   changed_.notify_all();
-}
-
-std::vector<VinsEstimate> VinsThread::poll() {
-  const std::lock_guard lock(mutex_);
-  return std::exchange(estimates_, {});
 }
 
 void VinsThread::finish() {
@@ -76,7 +79,7 @@ void VinsThread::run() {
   while (true) {
     changed_.wait(lock, [&] { return ended_ || can_process(); });
     if (!can_process()) break;
-    const StampedImage next = std::move(images_.front());
+    const WaitingImage next = std::move(images_.front());
     images_.pop_front();
     const std::vector<ImuSample> imu = std::exchange(imu_, {});
     lock.unlock();
@@ -87,15 +90,20 @@ void VinsThread::run() {
   counters_.images_without_imu += images_.size();
 }
 
-void VinsThread::process(const StampedImage& next, const std::vector<ImuSample>& imu) {
+void VinsThread::process(const WaitingImage& next, const std::vector<ImuSample>& imu) {
   std::uint64_t refused = 0;
   for (const ImuSample& sample : imu)
     refused += vins_.add_imu(sample) ? 0 : 1;
-  VinsEstimate estimate = vins_.process(tracker_.track(next.stamp, next.image));
-  const std::lock_guard lock(mutex_);
-  counters_.imu_refused += refused;
-  if (estimate.status == VinsStatus::kWaitingForImu) ++counters_.images_without_imu;
-  estimates_.push_back(std::move(estimate));
+  const auto image = next.decode();
+  std::optional<VinsEstimate> estimate;
+  if (image) estimate = vins_.process(tracker_.track(next.stamp, *image));
+  {
+    const std::lock_guard lock(mutex_);
+    counters_.imu_refused += refused;
+    if (!estimate) ++counters_.images_undecodable;
+    if (estimate && estimate->status == VinsStatus::kWaitingForImu) ++counters_.images_without_imu;
+  }
+  if (estimate && found_) found_(*estimate, vins_.odometry().window());
 }
 
 }  // namespace cosight::vins

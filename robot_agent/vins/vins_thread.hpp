@@ -3,6 +3,8 @@
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
+#include <functional>
+#include <memory>
 #include <mutex>
 #include <thread>
 #include <vector>
@@ -17,33 +19,37 @@ struct VinsThreadOptions {
   FeatureTrackerOptions tracker;
   std::size_t max_images = 4;          ///< waiting; more delay, or more frames lost when it is too slow
   std::size_t max_imu_samples = 4000;  ///< waiting for an image: 20 s at 200 Hz
-  bool never_drop = false;             ///< a full queue makes push_image wait: for input that can be paused
+  bool never_drop = false;  ///< a full queue makes whoever pushes wait: for input that can be paused
 };
 
 /// What went in and what was lost on the way.
 struct VinsCounters {
   std::uint64_t images = 0;
   std::uint64_t images_dropped = 0;  ///< came faster than they could be processed
+  std::uint64_t images_undecodable = 0;
   std::uint64_t images_out_of_order = 0;
   std::uint64_t images_without_imu = 0;  ///< the IMU's samples did not reach around them
   std::uint64_t imu_samples = 0;
   std::uint64_t imu_refused = 0;  ///< not newer than the last, not finite, or nobody took them
 };
 
-/// AdaptiveVins with its front end in a thread of its own. An image is processed as soon as IMU samples reach
-/// past it. With `never_drop` the estimates depend on the samples alone, not on when they came.
+/// AdaptiveVins with its front end in a thread of its own. An image is decoded and processed as soon as IMU
+/// samples reach past it. With `never_drop` the estimates depend on the samples and their order alone, not on
+/// when they came.
 class VinsThread {
  public:
-  VinsThread(const VinsThreadOptions& options, const CameraModel& camera, const Pose& T_BS);
+  /// Makes the pixels of an image, in this thread; null when it can't be read.
+  using Decode = std::function<std::shared_ptr<const GrayImage>()>;
+  /// Gets each estimate, in this thread; the window is the one it was made with.
+  using Found = std::function<void(const VinsEstimate& estimate, const Window& window)>;
+
+  VinsThread(const VinsThreadOptions& options, const CameraModel& camera, const Pose& T_BS, Found found);
   ~VinsThread();
   VinsThread(const VinsThread&) = delete;
   VinsThread& operator=(const VinsThread&) = delete;
 
   void push_imu(const ImuSample& sample);
-  void push_image(Stamp stamp, GrayImage image);
-
-  /// What was estimated since the last call.
-  std::vector<VinsEstimate> poll();
+  void push_image(Stamp stamp, Decode decode);
 
   /// No more samples will come: processes what waits, as far as the IMU reaches, and ends the thread.
   void finish();
@@ -51,24 +57,24 @@ class VinsThread {
   VinsCounters counters() const;
 
  private:
-  struct StampedImage {
+  struct WaitingImage {
     Stamp stamp = 0;
-    GrayImage image;
+    Decode decode;
   };
 
   void run();
   bool can_process() const;
-  void process(const StampedImage& next, const std::vector<ImuSample>& imu);
+  void process(const WaitingImage& next, const std::vector<ImuSample>& imu);
 
   VinsThreadOptions options_;
+  Found found_;
   FeatureTracker tracker_;
   AdaptiveVins vins_;
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;
-  std::deque<StampedImage> images_;
+  std::deque<WaitingImage> images_;
   std::vector<ImuSample> imu_;
-  std::vector<VinsEstimate> estimates_;
   VinsCounters counters_;
   Stamp last_imu_ = 0;
   Stamp last_image_ = 0;

@@ -96,6 +96,7 @@ AgentInput prepare_dataset(const InputOptions& options, Agent agent) {
     input.camera = dataset.robot_camera();
     input.known_points = dataset.known_points();
     input.has_wearer_pose = dataset.has_wearer_pose();
+    input.has_imu = dataset.has_imu();
     input.T_BS = dataset.T_BS();
     input.lasers = dataset.lasers();
     input.open = [dataset, options] { return dataset.open_robot(options.output, options.wearer_pose_noise); };
@@ -117,6 +118,7 @@ AgentInput describe_robot(const InputOptions& options, const std::filesystem::pa
     input.T_BS = load_body_extrinsics(calibration, options.camera);
   }
   if (!files.lasers.empty()) input.lasers = read_laser_mountings(files.lasers);
+  input.has_imu = !files.imu.empty();
   if (!files.known_points.empty()) input.known_points = read_known_points(files.known_points);
   return input;
 }
@@ -129,6 +131,7 @@ AgentInput prepare_topics(const InputOptions& options) {
   input.knows_camera = !options.dataset.empty() || !options.calibration.empty();
   input.live = true;
   input.has_wearer_pose = false;
+  input.has_imu = true;
   return input;
 }
 

@@ -60,6 +60,7 @@ struct AgentInput {
   bool live = false;                     ///< a camera or topics: at their own pace, can't be repeated
   std::vector<KnownPoint> known_points;  ///< of a dataset, for the robot
   bool has_wearer_pose = false;          ///< it yields poses of the worn camera, for the robot
+  bool has_imu = false;                  ///< it yields the robot's IMU; topics and recordings may not
   std::optional<Pose> T_BS;              ///< of the camera in the robot's body; not known to all
   std::vector<LaserMounting> lasers;     ///< on the robot
 };

@@ -34,6 +34,10 @@ bool CosightDataset::has_wearer_pose() const {
   return std::filesystem::exists(wearer_poses());
 }
 
+bool CosightDataset::has_imu() const {
+  return std::filesystem::exists(folder_ / "robot/imu.csv");
+}
+
 CameraModel CosightDataset::robot_camera() const {
   return load_camera_model(robot_calibration());
 }

@@ -26,6 +26,7 @@ class CosightDataset {
 
   bool has_wearer() const;
   bool has_wearer_pose() const;
+  bool has_imu() const;
 
   /// Throw ConfigError or DatasetError, each naming the file.
   CameraModel robot_camera() const;

@@ -95,6 +95,10 @@ const TopicProfile kRobotOdometry{.name = "rt/cosight/robot/odometry",
                                   .kind = MessageKind::kOdometry,
                                   .frame_id = frames::kWorld,
                                   .depth = kReportDepth};
+const TopicProfile kRobotVinsOdometry{.name = "rt/cosight/robot/vins/odometry",
+                                      .kind = MessageKind::kOdometry,
+                                      .frame_id = frames::kVinsWorld,
+                                      .depth = kReportDepth};
 const TopicProfile kRobotMap{.name = "rt/cosight/robot/map",
                              .kind = MessageKind::kPointCloud2,
                              .frame_id = frames::kWorld,
@@ -155,6 +159,7 @@ std::span<const TopicProfile* const> all_topics() {
                                       &profiles::kRobotWheelOdometry,
                                       &profiles::kRobotWearerPose,
                                       &profiles::kRobotOdometry,
+                                      &profiles::kRobotVinsOdometry,
                                       &profiles::kRobotMap,
                                       &profiles::kRobotOverlap,
                                       &profiles::kRobotHeartbeat};

@@ -47,6 +47,7 @@ struct Topic {
 
 namespace frames {
 inline constexpr std::string_view kWorld = "map";                   ///< W
+inline constexpr std::string_view kVinsWorld = "vins";              ///< W of VINS: z up, where it started
 inline constexpr std::string_view kRobotCamera = "robot_camera";    ///< S, optical
 inline constexpr std::string_view kRobotBody = "base_link";         ///< B, x forward
 inline constexpr std::string_view kWheelOdometry = "odom";          ///< O: B where the wheels began to count
@@ -72,6 +73,7 @@ extern const TopicProfile kRobotImu;
 extern const TopicProfile kRobotWheelOdometry;
 extern const TopicProfile kRobotWearerPose;
 extern const TopicProfile kRobotOdometry;
+extern const TopicProfile kRobotVinsOdometry;
 extern const TopicProfile kRobotMap;
 extern const TopicProfile kRobotOverlap;
 extern const TopicProfile kRobotHeartbeat;
@@ -94,6 +96,7 @@ inline constexpr Topic<ImuSample> kRobotImu{profiles::kRobotImu};
 inline constexpr Topic<WheelOdometrySample> kRobotWheelOdometry{profiles::kRobotWheelOdometry};
 inline constexpr Topic<WearerPoseSample> kRobotWearerPose{profiles::kRobotWearerPose};
 inline constexpr Topic<OdometrySample> kRobotOdometry{profiles::kRobotOdometry};
+inline constexpr Topic<OdometrySample> kRobotVinsOdometry{profiles::kRobotVinsOdometry};
 inline constexpr Topic<PointCloudSample> kRobotMap{profiles::kRobotMap};
 inline constexpr Topic<OverlapSample> kRobotOverlap{profiles::kRobotOverlap};
 inline constexpr Topic<HeartbeatSample> kRobotHeartbeat{profiles::kRobotHeartbeat};

@@ -120,7 +120,7 @@ TEST(TrajectoryLine, KeepsTheNanosecondOfTheStamp) {
   FrameEstimate estimate;
   estimate.stamp = 1'403'715'285'262'143'135;
   estimate.T_WS.T.p = {1.25, -2.0, 3.5};
-  EXPECT_EQ(trajectory_line(estimate), "1403715285.262143135 1.25 -2 3.5 0 0 0 1");
+  EXPECT_EQ(trajectory_line(estimate.stamp, estimate.T_WS.T), "1403715285.262143135 1.25 -2 3.5 0 0 0 1");
 }
 
 TEST(RunStatistics, AddsUpWhatFramesSaid) {

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <filesystem>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "robot_agent/vins_options.hpp"
+#include "robot_agent/vins_record.hpp"
+#include "shared/transport/participant.hpp"
+#include "shared/transport/publisher.hpp"
+#include "shared/transport/topics.hpp"
+
+namespace cosight::robot {
+
+/// VINS as the robot agent runs it: beside slam, in a thread of its own, fed by the same camera and the
+/// robot's IMU. What it estimates goes to `vins.tum` and, live, to rt/cosight/robot/vins/odometry.
+class VinsBackEnd {
+ public:
+  /// `participant`: null without DDS. Throws ConfigError, OutputError or TransportError.
+  VinsBackEnd(const vins::VinsThreadOptions& options, const AgentInput& input,
+              const std::filesystem::path& run_folder, const transport::Participant* participant);
+
+  void push(const ImuSample& sample);
+  void push(const ImageSample& frame);
+
+  /// No more samples will come: waits for what is being processed.
+  void finish();
+
+  /// "vins tracking", "vins not yet observable: too little parallax": for a terminal.
+  std::string status() const;
+
+  /// After finish().
+  void report(outbox::YamlText& text) const;
+  /// After finish(): what was lost, one sentence each.
+  std::vector<std::string> problems();
+
+ private:
+  void take(const vins::VinsEstimate& estimate, const vins::Window& window);
+
+  CameraModel camera_;
+  vins::VinsThreadOptions options_;
+  VinsRecord record_;
+  std::optional<transport::Publisher<OdometrySample>> publisher_;
+  mutable std::mutex mutex_;
+  std::string state_ = "waiting for images";
+  vins::VinsThread thread_;  ///< last: it uses all of the above
+};
+
+}  // namespace cosight::robot
