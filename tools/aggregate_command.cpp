@@ -57,9 +57,11 @@ struct EvaluatedRun {
 
 /// Ended far from where it should, did not end at all, or ended lost.
 bool has_diverged(const EvaluatedRun& run, double limit_percent) {
-  constexpr double kWholeRun = 95.0;  // [%] of the truth's poses
+  constexpr double kWholeRun = 95.0;  // [%] of the truth's poses since the start
+  constexpr double kHalfRun = 50.0;   // [%] of all: a run that starts later says little
   return !(run["final_error_percent"].value_or(1e9) <= limit_percent) ||
-         !(run["coverage_percent"].value_or(0.0) >= kWholeRun) || run["lost_at_end"].value_or(0.0) > 0.0;
+         !(run["coverage_after_start_percent"].value_or(0.0) >= kWholeRun) ||
+         !(run["coverage_percent"].value_or(0.0) >= kHalfRun) || run["lost_at_end"].value_or(0.0) > 0.0;
 }
 
 std::vector<EvaluatedRun> read_runs(const AggregateArguments& arguments, const std::string& mode) {

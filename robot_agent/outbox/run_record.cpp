@@ -33,7 +33,9 @@ RunRecord::RunRecord(const RunFolder& folder, RunDescription description)
 }
 
 void RunRecord::add(const FrameBundle& bundle, const FrameEstimate& estimate) {
-  trajectory_->append(trajectory_line(estimate.stamp, estimate.T_WS.T));
+  // Before the scale is known nothing is estimated: a pose then would claim that the robot stands still.
+  if (estimate.tracking != Tracking::kWaitingForScale)
+    trajectory_->append(trajectory_line(estimate.stamp, estimate.T_WS.T));
   frames_->append(frame_log_row(bundle, estimate));
   statistics_.add(bundle, estimate);
 }

@@ -57,12 +57,19 @@ void add_statistics(std::vector<Metric>& metrics, const std::string& name, const
   metrics.push_back({name + "_max_" + unit, value(statistics.max)});
 }
 
+/// A run estimates nothing before it has a scale; `coverage_after_start` is the share of what it could have.
 void add_extent(std::vector<Metric>& metrics, const Evaluation& evaluation, const Trajectory& estimate,
-                const Trajectory& truth) {
+                const Trajectory& truth, const EvaluationOptions& options) {
   metrics.push_back({"frames", static_cast<double>(estimate.size())});
   metrics.push_back({"compared", static_cast<double>(evaluation.pairs.size())});
   metrics.push_back({"coverage_percent", percent(static_cast<double>(evaluation.pairs.size()),
                                                  static_cast<double>(truth.size()))});
+  const Stamp start = evaluation.pairs.front().stamp - options.max_difference;
+  const auto after_start = std::count_if(truth.begin(), truth.end(), [&](const StampedPose& pose) {
+    return pose.stamp + options.truth_offset >= start;
+  });
+  metrics.push_back({"coverage_after_start_percent", percent(static_cast<double>(evaluation.pairs.size()),
+                                                             static_cast<double>(after_start))});
   metrics.push_back({"path_m", true_path_length(evaluation.pairs)});
 }
 
@@ -178,7 +185,7 @@ Evaluation evaluate(const Trajectory& estimate, const Trajectory& truth, const E
   evaluation.pairs = aligned(raw_pairs, evaluation.T_truth_estimate);
   evaluation.position_errors = position_errors(evaluation.pairs);
   evaluation.rotation_errors = rotation_errors(evaluation.pairs);
-  add_extent(evaluation.metrics, evaluation, estimate, truth);
+  add_extent(evaluation.metrics, evaluation, estimate, truth, options);
   add_position_errors(evaluation.metrics, evaluation);
   add_relative_errors(evaluation.metrics, evaluation, options.relative);
   add_scale(evaluation.metrics, raw_pairs);

@@ -120,7 +120,7 @@ TEST_F(Collaboration, AnInterruptEndsARobotSoonWithCompleteFiles) {
   const RunFiles run = run_files();
   EXPECT_GE(run.frames().size(), 8U);
   EXPECT_LT(run.frames().size(), static_cast<std::size_t>(kFrames));
-  EXPECT_EQ(run.trajectory().size(), run.frames().size());
+  EXPECT_EQ(run.trajectory().size(), run.frames_with_scale());
   EXPECT_EQ(run.summary("frames"), static_cast<int>(run.frames().size()));
   EXPECT_GT(std::filesystem::file_size(run_folder() / "map.ply"), 0U);
   EXPECT_GT(std::filesystem::file_size(run_folder() / "map.pcd"), 0U);

@@ -14,7 +14,7 @@ TEST_F(LiveSimulation, ARobotOnTopicsAloneFindsItselfAndItsWearer) {
   EXPECT_EQ(cosight->wait().exit_code, 0);
   const RunFiles files = run_files();
   EXPECT_EQ(files.summary("inbox.robot_frames"), kFrames);
-  EXPECT_EQ(files.trajectory().size(), static_cast<std::size_t>(kFrames));
+  EXPECT_EQ(files.trajectory().size(), files.frames_with_scale());
   EXPECT_EQ(files.summary("inbox.robot_lost"), 0);
   EXPECT_THAT(files.summary("wearer_by_laser.seen"), Ge(100)) << "two lasers at 25 Hz for four seconds";
   EXPECT_THAT(files.summary("inbox.paired"), Ge(kFrames / 2)) << "with poses that the lasers gave";

@@ -81,6 +81,12 @@ RunFiles::RunFiles(fs::path folder) : folder_(std::move(folder)) {
   }
 }
 
+std::size_t RunFiles::frames_with_scale() const {
+  return static_cast<std::size_t>(std::count_if(frames_.begin(), frames_.end(), [](const Row& row) {
+    return row.at("tracking") != "waiting_for_scale";
+  }));
+}
+
 int RunFiles::summary(const std::string& key) const {
   const ConfigFile file = ConfigFile::load(folder_ / "summary.yaml");
   const auto dot = key.find('.');

@@ -23,6 +23,8 @@ class RunFiles {
   const std::vector<Row>& frames() const { return frames_; }
   /// Stamps of the trajectory as it writes them [s].
   const std::vector<std::string>& trajectory() const { return trajectory_; }
+  /// Frames since the scale is known: one pose each.
+  std::size_t frames_with_scale() const;
   const std::filesystem::path& folder() const { return folder_; }
 
   /// `inbox.paired` or `frames` of summary.yaml; -1 when it is not there.
@@ -44,7 +46,7 @@ MATCHER_P2(IsCompleteToTheLastFrame, frames, dataset, "") {
                    << arg.summary("frames") << " frames in summary.yaml in " << arg.folder();
   const std::string last = last_stamp(std::filesystem::path(dataset) / "robot/cam0.csv");
   const auto count = static_cast<std::size_t>(frames);
-  return arg.frames().size() == count && arg.trajectory().size() == count &&
+  return arg.frames().size() == count && arg.trajectory().size() == arg.frames_with_scale() &&
          arg.summary("frames") == static_cast<int>(count) && arg.frames().back().at("stamp_ns") == last;
 }
 

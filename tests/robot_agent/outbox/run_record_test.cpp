@@ -145,6 +145,18 @@ TEST_F(RunFiles, AKilledRunKeepsEveryFrame) {
   EXPECT_EQ(read_frame_log(root_ / "run" / "frames.csv").size(), 50U);
 }
 
+TEST_F(RunFiles, TheTrajectoryBeginsWithTheScale) {
+  RunRecord record(RunFolder(root_ / "run"), {"0", "collaborative", ""});
+  for (int i = 0; i < 10; ++i) {
+    FrameEstimate estimate = frame(i);
+    if (i < 4) estimate.tracking = Tracking::kWaitingForScale;
+    record.add({}, estimate);
+  }
+  record.finish({}, 1.0, {});
+  EXPECT_EQ(lines(root_ / "run" / "trajectory.tum").size(), 1U + 6U);
+  EXPECT_EQ(read_frame_log(root_ / "run" / "frames.csv").size(), 10U);
+}
+
 TEST_F(RunFiles, AFinishedRunIsComplete) {
   const RunFolder folder(root_ / "run");
   RunRecord record(folder, {"0.1.0", "collaborative", "slam:\n  max_landmarks: 60\n"});

@@ -27,6 +27,16 @@ TEST(Evaluation, OfAnEstimateThatIsTwoPercentTooLarge) {
   EXPECT_NEAR(evaluation.metric("coverage_percent").value(), 100.0, 1e-9);
 }
 
+TEST(Evaluation, TellsALateStartFromPosesThatAreMissing) {
+  const Trajectory truth = straight_line(101, 0.5);
+  Trajectory estimate(truth.begin() + 20, truth.end());
+  EXPECT_NEAR(evaluate(estimate, truth, {}).metric("coverage_percent").value(), 100.0 * 81 / 101, 1e-9);
+  EXPECT_NEAR(evaluate(estimate, truth, {}).metric("coverage_after_start_percent").value(), 100.0, 1e-9);
+  estimate.erase(estimate.begin() + 10, estimate.begin() + 50);
+  EXPECT_NEAR(evaluate(estimate, truth, {}).metric("coverage_after_start_percent").value(), 100.0 * 41 / 81,
+              1e-9);
+}
+
 TEST(Evaluation, KeepsTheScaleErrorThatSim3Hides) {
   const Trajectory truth = spiral(50);
   EvaluationOptions options;
