@@ -65,7 +65,7 @@ std::vector<Guess> WearerMatcher::corners_for(const StereoView& view, const Gray
                                               bool is_start) {
   const int missing = options_.min_refining_matches - known;
   if (missing <= 0 || !has_wide_bands(view.rig.T_SF)) return {};
-  constexpr int kTriesAtStart = 48;
+  constexpr int kTriesAtStart = 96;  // the more agree, the better the scale of the whole run
   return new_points_.guesses(view, image_S, occupied, is_start ? kTriesAtStart : 2 * options_.max_new_tries);
 }
 
