@@ -50,6 +50,9 @@ slam::PseudoStereoOptions read_pseudo_stereo(const ConfigNode& node) {
   o.band_sigmas = node.number("band_sigmas", o.band_sigmas, 0.5, 10.0);
   o.max_band_radius = node.integer("max_band_radius", o.max_band_radius, 3, 1000);
   o.interval_s = node.number("interval_s", o.interval_s, 0.0, 60.0);
+  o.measure_as =
+      node.choice("measure_as", o.measure_as,
+                  {{"pixel", slam::WornMeasurement::kPixel}, {"point", slam::WornMeasurement::kPoint}});
   o.correlated_updates = node.boolean("correlated_updates", o.correlated_updates);
   o.correlated_starts = node.boolean("correlated_starts", o.correlated_starts);
   o.max_new_landmarks = node.integer("max_new_landmarks", o.max_new_landmarks, 0, 500);

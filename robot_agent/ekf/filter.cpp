@@ -43,9 +43,9 @@ Filter::Filter(const CameraModel& camera, const FilterOptions& options)
   const auto landmarks = static_cast<std::size_t>(options.max_landmarks);
   landmarks_.reserve(landmarks);
   clones_.reserve(static_cast<std::size_t>(options.max_clones));
-  report_.measurements.reserve(landmarks);
-  keep_.reserve(landmarks);
-  relinearised_.reserve(landmarks);
+  report_.measurements.reserve(2 * landmarks);  // both cameras may see one
+  keep_.reserve(2 * landmarks);
+  relinearised_.reserve(2 * landmarks);
   reset(CameraState{}, CameraState::Covariance::Zero());
 }
 

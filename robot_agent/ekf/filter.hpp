@@ -176,11 +176,14 @@ class Filter {
                              const Eigen::Ref<const Eigen::MatrixXd>& noise);
   UncertainPose pose_at(int offset) const;
 
-  /// The free camera in the present frame; `factor` times a standard normal is the error of T_SF.
+  /// The free camera in the present frame; `factor` times a standard normal is the error of T_SF, and
+  /// `guess` the step from its mean to where its pixels are linearised.
   struct Wearer {
     WearerObservation model;
     Eigen::Matrix<double, 6, 6> factor;
+    Eigen::Matrix<double, 6, 1> guess = Eigen::Matrix<double, 6, 1>::Zero();
   };
+  static Wearer wearer_of(const StereoRig& rig);
 
   bool linearise(const Measurement& measurement, LinearisedMeasurement& out) const;
   bool linearise_wearer_pixel(const Measurement& measurement, LinearisedMeasurement& out) const;

@@ -126,16 +126,25 @@ bool Filter::linearise_wearer_pixel(const Measurement& measurement, LinearisedMe
   });
   if (!h) return false;
   out.rows = 2;
-  out.innovation.head<2>() = measurement.z.head<2>() - *h;
+  out.innovation.head<2>() = measurement.z.head<2>() - *h + H_wearer * wearer_->guess;
   out.shared_factor.topRows<2>() = H_wearer * wearer_->factor;
   out.R.topLeftCorner<2, 2>() += out.shared_factor.topRows<2>() * out.shared_factor.topRows<2>().transpose();
   return out.innovation.head<2>().allFinite();
 }
 
+Filter::Wearer Filter::wearer_of(const StereoRig& rig) {
+  Wearer wearer{{rig.camera_F, rig.T_SF.T}, covariance_factor(rig.T_SF.covariance)};
+  if (rig.T_SF_guess) {
+    wearer.model.T_SF = *rig.T_SF_guess;
+    wearer.guess << rig.T_SF_guess->p - rig.T_SF.T.p,
+        quaternion_log(rig.T_SF_guess->q * rig.T_SF.T.q.conjugate());
+  }
+  return wearer;
+}
+
 void Filter::collect(std::span<const Measurement> measurements, const StereoRig* wearer) {
   wearer_.reset();
-  if (wearer != nullptr)
-    wearer_ = Wearer{{wearer->camera_F, wearer->T_SF.T}, covariance_factor(wearer->T_SF.covariance)};
+  if (wearer != nullptr) wearer_ = wearer_of(*wearer);
   innovation_.clear();
   LinearisedMeasurement linearised;
   for (std::size_t i = 0; i < measurements.size(); ++i) {

@@ -115,10 +115,12 @@ FrameEstimate CollaborativeSlam::process(const FrameBundle& bundle) {
   const auto measurements = wearer_matcher_.measure(view, sightings, matches, estimate.pseudo_stereo);
   watch.lap(estimate.timings.pseudo_stereo);
 
-  const auto accepted = validate(measurements, estimate);
+  const auto rig = view ? std::optional(view->sensed_rig()) : std::nullopt;
+  const ekf::StereoRig* wearer = rig ? &*rig : nullptr;
+  const auto accepted = validate(measurements, wearer, estimate);
   watch.lap(estimate.timings.validate);
 
-  const ekf::UpdateReport& report = filter_.update(accepted);
+  const ekf::UpdateReport& report = filter_.update(accepted, wearer);
   note_fused(sightings, report, estimate);
   watch.lap(estimate.timings.update);
 
@@ -229,16 +231,19 @@ void CollaborativeSlam::learn_yaw_offset(const WearerView& wearer, const StereoV
 }
 
 std::vector<ekf::Measurement> CollaborativeSlam::validate(const std::vector<ekf::Measurement>& measurements,
+                                                          const ekf::StereoRig* wearer,
                                                           FrameEstimate& estimate) {
   const auto refuse = [&](const ekf::Measurement& measurement, int SearchCounts::*pixels,
-                          int PseudoStereoCounts::*points) {
+                          int PseudoStereoCounts::*worn) {
+    if (measurement.kind != ekf::MeasurementKind::kPixel) ++(estimate.pseudo_stereo.*worn);
+    if (measurement.kind == ekf::MeasurementKind::kWearerPixel) return;
     ++(estimate.search.*pixels);
-    if (measurement.kind == ekf::MeasurementKind::kPoint) ++(estimate.pseudo_stereo.*points);
     if (LandmarkTrack* track = tracks_.find(measurement.landmark)) ++track->failures;
   };
   const ekf::ChiSquaredLimits limits(options_.search.gate_probability, 3);
   std::vector<ekf::Measurement> gated;
-  for (const ekf::LinearisedMeasurement& linearised : filter_.innovation(measurements).measurements()) {
+  for (const ekf::LinearisedMeasurement& linearised :
+       filter_.innovation(measurements, wearer).measurements()) {
     const ekf::Measurement& measurement = measurements[static_cast<std::size_t>(linearised.measurement)];
     if (linearised.nis <= limits(linearised.rows)) {
       gated.push_back(measurement);
@@ -246,7 +251,7 @@ std::vector<ekf::Measurement> CollaborativeSlam::validate(const std::vector<ekf:
       refuse(measurement, &SearchCounts::chi_squared, &PseudoStereoCounts::chi_squared);
     }
   }
-  const ekf::JointInnovation& joint = filter_.innovation(gated);
+  const ekf::JointInnovation& joint = filter_.innovation(gated, wearer);
   const ekf::Hypothesis& hypothesis = compatibility_.test(joint);
   std::vector<ekf::Measurement> accepted;
   for (std::size_t i = 0; i < hypothesis.keep.size(); ++i) {
@@ -269,11 +274,11 @@ void CollaborativeSlam::note_fused(const std::vector<Sighting>& sightings, const
   for (const ekf::MeasurementReport& measurement : report.measurements) {
     LandmarkTrack* track = tracks_.find(measurement.landmark);
     if (track == nullptr || measurement.outcome != ekf::Outcome::kFused) continue;
+    if (measurement.kind != ekf::MeasurementKind::kPixel) ++estimate.pseudo_stereo.fused;
+    if (measurement.kind == ekf::MeasurementKind::kWearerPixel) continue;
     track->found = true;
     ++track->observations;
-    if (measurement.kind == ekf::MeasurementKind::kPoint) {
-      ++estimate.pseudo_stereo.fused;
-    } else {
+    if (measurement.kind == ekf::MeasurementKind::kPixel) {
       ++estimate.search.fused_pixels;
       squared_px += measurement.innovation.head<2>().squaredNorm();
     }

@@ -52,7 +52,7 @@ class CollaborativeSlam {
                                         FrameEstimate& estimate) const;
   void learn_yaw_offset(const WearerView& wearer, const StereoView& view);
   std::vector<ekf::Measurement> validate(const std::vector<ekf::Measurement>& measurements,
-                                         FrameEstimate& estimate);
+                                         const ekf::StereoRig* wearer, FrameEstimate& estimate);
   void note_fused(const std::vector<Sighting>& sightings, const ekf::UpdateReport& report,
                   FrameEstimate& estimate);
   void renew_map(const GrayImage& image, const std::optional<StereoView>& view, const WornMatches& matches,

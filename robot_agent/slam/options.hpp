@@ -20,6 +20,12 @@ enum class FirstPose {
   kCloned,  ///< as a block of the state: consistent, seven states a keyframe
 };
 
+/// What a mapped landmark's match in Cf measures.
+enum class WornMeasurement {
+  kPixel,  ///< a second pixel, in Cf (ekf::WearerObservation)
+  kPoint,  ///< a 3-D point in Cs (C5), triangulated: the paper's way
+};
+
 /// How new points are found in Cf. Known landmarks are found by ZNCC inside their epipolar band in any case.
 enum class Matching {
   kBand,  ///< corners of Cs by ZNCC along their epipolar band: the cheapest, for views that are not too
@@ -70,6 +76,7 @@ struct PseudoStereoOptions {
   /// The points of a frame share the error of Cf's pose: measured with it (off-diagonal blocks of R), or as
   /// if independent (the paper).
   bool correlated_updates = true;
+  WornMeasurement measure_as = WornMeasurement::kPixel;
   /// The same for the landmarks that start in one frame. Off: a scale that hangs on one uncertain pose alone
   /// is the direction in which an EKF drifts (docs/decisions/0005).
   bool correlated_starts = false;

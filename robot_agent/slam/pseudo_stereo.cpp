@@ -113,12 +113,19 @@ std::vector<ekf::Measurement> PseudoStereo::measure(const std::optional<StereoVi
                                                     const Matches& matches,
                                                     PseudoStereoCounts& counts) const {
   std::vector<ekf::Measurement> measurements;
-  measurements.reserve(sightings.size());
+  measurements.reserve(2 * sightings.size());
   for (std::size_t i = 0; i < sightings.size(); ++i) {
     const Sighting& sighting = sightings[i];
-    const auto point = view && matches[i] ? point_of(*view, *matches[i], counts) : std::nullopt;
+    const bool is_worn = view && matches[i];
+    const auto point = is_worn && options_.measure_as == WornMeasurement::kPoint
+                           ? point_of(*view, *matches[i], counts)
+                           : std::nullopt;
     measurements.push_back(point ? ekf::Measurement::point(sighting.landmark, *point)
                                  : ekf::Measurement::pixel(sighting.landmark, sighting.pixel, pixel_sigma_));
+    if (is_worn && options_.measure_as == WornMeasurement::kPixel) {
+      measurements.push_back(
+          ekf::Measurement::wearer_pixel(sighting.landmark, matches[i]->pixel_F, view->rig.sigma_pixel_F));
+    }
   }
   return measurements;
 }

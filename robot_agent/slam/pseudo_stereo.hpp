@@ -26,7 +26,8 @@ class PseudoStereo {
   Matches match(const StereoView& view, const GrayImage& image_S, const std::vector<Sighting>& sightings,
                 const ekf::Filter& filter, LandmarkTracks& tracks, PseudoStereoCounts& counts);
 
-  /// One measurement a sighting: a point where it has a match with depth (C5), a pixel otherwise (C6).
+  /// Each sighting as a pixel of Cs (C6); where it has a match, one of Cf as well, or both together as a
+  /// point if there is depth in them (C5).
   std::vector<ekf::Measurement> measure(const std::optional<StereoView>& view,
                                         const std::vector<Sighting>& sightings, const Matches& matches,
                                         PseudoStereoCounts& counts) const;

@@ -5,6 +5,13 @@
 
 namespace cosight::slam {
 
+ekf::StereoRig StereoView::sensed_rig() const {
+  ekf::StereoRig sensed = rig;
+  sensed.T_SF = sensed_T_SF;
+  sensed.T_SF_guess = rig.T_SF.T;
+  return sensed;
+}
+
 std::optional<UncertainPose> wearer_pose(const WearerView& wearer, const UncertainPose& T_WS,
                                          const wearer::UncertainAngle& yaw) {
   if (wearer.has_orientation) return wearer.T_SF;
