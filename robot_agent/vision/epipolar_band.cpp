@@ -19,9 +19,11 @@ using Vector3 = Eigen::Vector3d;
 class SightedRay {
  public:
   SightedRay(const CameraModel& camera_F, const UncertainPose& T_SF, const Vector3& direction,
-             const Eigen::Matrix<double, 3, 2>& J_direction, const EpipolarOptions& options)
+             const Eigen::Matrix<double, 3, 2>& J_direction, const InverseDistanceRange& range,
+             const EpipolarOptions& options)
       : camera_F_(camera_F),
         T_SF_(T_SF),
+        range_(range),
         m_(direction.normalized()),
         R_FS_(T_SF.T.q.toRotationMatrix().transpose()),
         variance_F_(options.sigma_pixel_F * options.sigma_pixel_F) {
@@ -30,17 +32,18 @@ class SightedRay {
     covariance_m_ = options.sigma_pixel_S * options.sigma_pixel_S * J * J.transpose();
     towards_ = -m_.dot(T_SF.T.p);
     aside_ = m_.cross(T_SF.T.p).norm();
+    first_angle_ = angle(range.min);
+    angle_span_ = angle(range.max) - first_angle_;
   }
 
   /// Inverse distance at a fraction of the range, in equal steps of the angle under which F sees the ray:
   /// equal steps of rho would leave most samples outside the image when the baseline is long.
-  double at(const InverseDistanceRange& range, double fraction) const {
+  double at(double fraction) const {
     constexpr double kNoParallax = 1e-9;  // [m]
-    if (aside_ < kNoParallax) return range.min + fraction * (range.max - range.min);
-    const double first = angle(range.min);
-    const double phi = first + fraction * (angle(range.max) - first);
+    if (aside_ < kNoParallax) return range_.min + fraction * (range_.max - range_.min);
+    const double phi = first_angle_ + fraction * angle_span_;
     const double rho = std::sin(phi) / (aside_ * std::cos(phi) - towards_ * std::sin(phi));
-    return std::clamp(rho, range.min, range.max);
+    return std::clamp(rho, range_.min, range_.max);
   }
 
   std::optional<Vector2> pixel(double rho) const { return camera_F_.project(R_FS_ * (m_ - rho * T_SF_.T.p)); }
@@ -66,21 +69,22 @@ class SightedRay {
 
   const CameraModel& camera_F_;
   const UncertainPose& T_SF_;
+  InverseDistanceRange range_;
   Vector3 m_;  ///< unit, in S
   Matrix3 R_FS_;
   Matrix3 covariance_m_;
   double variance_F_;
-  double towards_ = 0.0;  ///< -t along m [m]
-  double aside_ = 0.0;    ///< |t| across m [m]
+  double towards_ = 0.0;                         ///< -t along m [m]
+  double aside_ = 0.0;                           ///< |t| across m [m]
+  double first_angle_ = 0.0, angle_span_ = 0.0;  ///< of the range [rad]
 };
 
 /// The part of the range whose pixels lie in the image, `margin` allowed around it. Scanned, then its ends
 /// bisected; one stretch, since a straight line crosses a convex image once. In fractions of the range.
-std::optional<std::pair<double, double>> visible_part(const SightedRay& ray,
-                                                      const InverseDistanceRange& range,
-                                                      const CameraModel& camera_F, double margin) {
+std::optional<std::pair<double, double>> visible_part(const SightedRay& ray, const CameraModel& camera_F,
+                                                      double margin) {
   const auto is_visible = [&](double fraction) {
-    const auto pixel = ray.pixel(ray.at(range, fraction));
+    const auto pixel = ray.pixel(ray.at(fraction));
     return pixel && camera_F.contains(*pixel, -margin);
   };
   constexpr int kScan = 32;
@@ -117,20 +121,20 @@ std::optional<EpipolarBand> EpipolarBand::predict(const CameraModel& camera_S, c
   Eigen::Matrix<double, 3, 2> J_direction;
   const auto direction = camera_S.unproject(pixel_S, &J_direction);
   if (!direction || !(range.max >= range.min)) return std::nullopt;
-  const SightedRay ray(camera_F, T_SF, *direction, J_direction, options);
-  const auto visible = visible_part(ray, range, camera_F, options.max_half_width);
+  const SightedRay ray(camera_F, T_SF, *direction, J_direction, range, options);
+  const auto visible = visible_part(ray, camera_F, options.max_half_width);
   if (!visible) return std::nullopt;
 
   EpipolarBand band;
   // About 40 px between samples: the lens bends the curve by far less than a pixel on that way.
   constexpr double kSpacing = 40.0;
   const auto [first, last] = *visible;
-  const auto begin = ray.pixel(ray.at(range, first));
-  const auto end = ray.pixel(ray.at(range, last));
+  const auto begin = ray.pixel(ray.at(first));
+  const auto end = ray.pixel(ray.at(last));
   const double span = begin && end ? (*end - *begin).norm() : 0.0;
   const int pieces = std::clamp(static_cast<int>(std::ceil(span / kSpacing)), 2, kMaxSamples - 1);
   for (int i = 0; i <= pieces; ++i) {
-    const auto sample = ray.sample(ray.at(range, first + (last - first) * i / pieces));
+    const auto sample = ray.sample(ray.at(first + (last - first) * i / pieces));
     if (sample) band.samples_[band.size_++] = *sample;
   }
   if (band.size_ < 2) return std::nullopt;
@@ -159,6 +163,17 @@ void EpipolarBand::measure(const EpipolarOptions& options) {
     bounds_.min = bounds_.min.cwiseMin(samples_[i].pixel - reach);
     bounds_.max = bounds_.max.cwiseMax(samples_[i].pixel + reach);
   }
+  measure_pieces();
+}
+
+void EpipolarBand::measure_pieces() {
+  for (std::size_t i = 0; i + 1 < size_; ++i) {
+    Piece& piece = pieces_[i];
+    piece.s = samples_[i + 1].pixel - samples_[i].pixel;
+    piece.A = 0.5 * (informations_[i] + informations_[i + 1]);
+    piece.As = piece.A * piece.s;
+    piece.ss = piece.s.dot(piece.As);
+  }
 }
 
 // On the piece from a to a + s, the nearest place in the metric A = C^-1 is at t = s.A d / s.A s, d = pixel -
@@ -166,14 +181,11 @@ void EpipolarBand::measure(const EpipolarOptions& options) {
 double EpipolarBand::distance(const Eigen::Vector2d& pixel_F) const {
   double least = 1e300;
   for (std::size_t i = 0; i + 1 < size_; ++i) {
-    const Vector2 s = samples_[i + 1].pixel - samples_[i].pixel;
+    const Piece& piece = pieces_[i];
     const Vector2 d = pixel_F - samples_[i].pixel;
-    const Matrix2 A = 0.5 * (informations_[i] + informations_[i + 1]);
-    const Vector2 As = A * s;
-    const double ss = s.dot(As);
-    const double t = ss > 1e-12 ? std::clamp(d.dot(As) / ss, 0.0, 1.0) : 0.0;
-    const Vector2 offset = d - t * s;
-    least = std::min(least, offset.dot(A * offset));
+    const double t = piece.ss > 1e-12 ? std::clamp(d.dot(piece.As) / piece.ss, 0.0, 1.0) : 0.0;
+    const Vector2 offset = d - t * piece.s;
+    least = std::min(least, offset.dot(piece.A * offset));
   }
   return std::sqrt(least);
 }

@@ -72,10 +72,20 @@ class EpipolarBand {
  private:
   EpipolarBand() = default;
   void measure(const EpipolarOptions& options);
+  void measure_pieces();
+
+  /// From one sample to the next.
+  struct Piece {
+    Eigen::Vector2d s;   ///< the step [px]
+    Eigen::Matrix2d A;   ///< mean information of the two [1/px^2]
+    Eigen::Vector2d As;  ///< A s
+    double ss = 0.0;     ///< s.A s
+  };
 
   std::array<Sample, kMaxSamples> samples_;
   std::array<double, kMaxSamples> half_widths_{};
   std::array<Eigen::Matrix2d, kMaxSamples> informations_;
+  std::array<Piece, kMaxSamples - 1> pieces_;
   std::size_t size_ = 0;
   double n_sigmas_ = 3.0;
   double max_half_width_ = 0.0;

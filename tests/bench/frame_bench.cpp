@@ -85,6 +85,14 @@ void time_frames(benchmark::State& state, const std::vector<FrameBundle>& bundle
       records, [](const auto& r) { return r.estimate.search.fused_pixels + r.estimate.pseudo_stereo.fused; });
   state.counters["described"] =
       median_of(records, [](const auto& r) { return r.estimate.pseudo_stereo.described; });
+  const auto stage = [&](double StageTimings::*part) {
+    return median_of(records, [part](const auto& r) { return r.estimate.timings.*part; });
+  };
+  state.counters["search_ms"] = stage(&StageTimings::search);
+  state.counters["pseudo_stereo_ms"] = stage(&StageTimings::pseudo_stereo);
+  state.counters["validate_ms"] = stage(&StageTimings::validate);
+  state.counters["update_ms"] = stage(&StageTimings::update);
+  state.counters["map_ms"] = stage(&StageTimings::map);
   const FrameEstimate& last = records.back().estimate;
   state.counters["tracking_at_end"] = last.tracking == Tracking::kTracking ? 1.0 : 0.0;
 }
@@ -108,7 +116,8 @@ void frame_collaborative(benchmark::State& state, double interval_s) {
   options.pseudo_stereo.interval_s = interval_s;
   constexpr std::size_t kWarmUp = 20;
   time_frames(
-      state, walk.bundles(), [&] { return CollaborativeSlam(walk.camera(), options); }, kWarmUp);
+      state, walk.bundles(), [&] { return CollaborativeSlam(walk.camera(), options, {}, thread_cpu_time); },
+      kWarmUp);
 }
 BENCHMARK_CAPTURE(frame_collaborative, every_frame, 0.0)->Iterations(1)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(frame_collaborative, default_interval, SlamOptions{}.pseudo_stereo.interval_s)
@@ -127,7 +136,8 @@ void frame_growth(benchmark::State& state) {
   const std::vector<FrameBundle> bundles(walk.bundles().begin(), walk.bundles().begin() + 60);
   constexpr std::size_t kWarmUp = 40;
   time_frames(
-      state, bundles, [&] { return CollaborativeSlam(walk.camera(), options); }, kWarmUp);
+      state, bundles, [&] { return CollaborativeSlam(walk.camera(), options, {}, thread_cpu_time); },
+      kWarmUp);
 }
 BENCHMARK(frame_growth)->RangeMultiplier(2)->Range(25, 400)->Iterations(1)->Unit(benchmark::kMillisecond);
 
@@ -156,7 +166,9 @@ void frame_mono_small(benchmark::State& state) {
   options.mode = slam::Mode::kMono;
   options.map.max_landmarks = 15;
   options.search.max_measured = 12;
-  const auto make = [&] { return CollaborativeSlam(sequence.robot_camera, options, sequence.known_points); };
+  const auto make = [&] {
+    return CollaborativeSlam(sequence.robot_camera, options, sequence.known_points, thread_cpu_time);
+  };
   constexpr std::size_t kWarmUp = 20;
   time_frames(state, bundles, make, kWarmUp);
 }
