@@ -94,7 +94,7 @@ struct FrameEstimate {
   double innovation_rms_px = 0.0;  ///< of the fused bearings
   double nis_per_dof = 0.0;        ///< of everything fused; about 1 when the filter is consistent
   double yaw_offset = 0.0;         ///< of the AHRS's north against W, beyond what is configured [rad]
-  double yaw_offset_sigma = 0.0;   ///< [rad]; zero where no AHRS is needed
+  double yaw_offset_sigma = 0.0;   ///< [rad]
   StageTimings timings;
 };
 

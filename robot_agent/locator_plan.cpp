@@ -9,9 +9,8 @@ std::optional<LocatorPlan> plan_locator(const RobotOptions& options, const Agent
   const bool can_locate = !input.lasers.empty() && input.T_BS;
   const bool locates = is_auto ? can_locate && !input.has_wearer_pose : options.wearer.pose_from == kLaser;
   if (!locates) return std::nullopt;
-  const inbox::MountingOptions& mounting = options.inbox.mounting;
   return LocatorPlan{with_mountings(options.wearer.tracking, input),
-                     {mounting.yaw_offset, mounting.yaw_offset_sigma},
+                     {options.inbox.mounting.yaw_offset, options.slam.yaw_offset.prior.sigma},
                      is_auto};
 }
 

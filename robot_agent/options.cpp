@@ -27,8 +27,6 @@ inbox::InboxOptions read_inbox_options(const ConfigNode& node) {
       kDegree * node.number("ahrs_yaw_offset_deg", o.mounting.yaw_offset / kDegree, -360.0, 360.0);
   // The AHRS turns from the magnetic north, maps from the true one.
   o.mounting.yaw_offset -= wearer::read_declination(node);
-  o.mounting.yaw_offset_sigma =
-      kDegree * node.number("ahrs_yaw_offset_sigma_deg", o.mounting.yaw_offset_sigma / kDegree, 0.0, 180.0);
   return o;
 }
 
@@ -53,10 +51,12 @@ RobotOptions read_robot_options(const ConfigNode& root) {
   options.replay.loop = replay.boolean("loop", options.replay.loop);
   options.dds.name = "cosight_robot";
   options.dds = transport::read_participant_options(root.section("dds"), options.dds);
-  options.inbox = read_inbox_options(root.section("inbox"));
+  const ConfigNode inbox = root.section("inbox");
+  options.inbox = read_inbox_options(inbox);
   options.slam = read_slam_options(root.section("slam"));
   // The inbox turns by what is configured; what that leaves open is slam's to find out.
-  options.slam.yaw_offset.prior.sigma = options.inbox.mounting.yaw_offset_sigma;
+  double& sigma = options.slam.yaw_offset.prior.sigma;
+  sigma = kDegree * inbox.number("ahrs_yaw_offset_sigma_deg", sigma / kDegree, 0.0, 180.0);
   options.wearer = read_wearer_section(root.section("wearer"));
   options.estimators = read_estimators(root);
   options.vins = read_vins_options(root.section("vins"));

@@ -49,9 +49,7 @@ struct MountingOptions {
   /// ahead.
   Eigen::Quaterniond q_HF = Eigen::Quaterniond(0.5, -0.5, 0.5, -0.5);
   double mounting_sigma = 0.005;  ///< of q_HF, each axis [rad]
-  double yaw_offset = 0.0;        ///< from the AHRS's north to W's x axis [rad]
-  double yaw_offset_sigma =
-      0.035;  ///< what that leaves open [rad]: not in q_WF's covariance, slam estimates it
+  double yaw_offset = 0.0;        ///< from the AHRS's north to W's x axis [rad]; slam finds out what it lacks
 };
 
 /// What an image must measure; 0: anything.

@@ -142,7 +142,7 @@ struct SlamOptions {
   MapOptions map;
   StartOptions start;
   /// The AHRS's north against W. A wearer's pose with an orientation of its own does not need it.
-  wearer::YawOffsetOptions yaw_offset{.prior = {0.0, 0.01}};
+  wearer::YawOffsetOptions yaw_offset{.prior = {0.0, 0.035}};
   overlap::OverlapOptions overlap;
 };
 

@@ -126,8 +126,8 @@ TEST(FreeCameraOrientation, YawOffsetTurnsNorthToTheWorldsX) {
   constexpr double kQuarter = M_PI / 2;
   UncertainOrientation q_WH;
   q_WH.covariance = Eigen::Vector3d(1e-4, 4e-4, 9e-4).asDiagonal();
-  const UncertainOrientation q_WF = free_camera_orientation(
-      q_WH, {.mounting_sigma = 0.01, .yaw_offset = kQuarter, .yaw_offset_sigma = 0.02});
+  const UncertainOrientation q_WF =
+      free_camera_orientation(q_WH, {.mounting_sigma = 0.01, .yaw_offset = kQuarter});
   EXPECT_TRUE((q_WF.q * Eigen::Vector3d::UnitZ()).isApprox(Eigen::Vector3d::UnitY(), 1e-12));
   const Eigen::Vector3d expected(4e-4 + 1e-4, 1e-4 + 1e-4,
                                  9e-4 + 1e-4);  // what the offset leaves open is slam's
