@@ -168,26 +168,26 @@ void write_laser_geometry(const std::filesystem::path& file,
   out.close();
 }
 
-void write_imu(const std::filesystem::path& file, const std::vector<ImuSample>& samples) {
+void write_imu(const std::filesystem::path& file, const std::vector<BiasedImuSample>& samples) {
   TextFile out(file);
   std::ofstream& s = out.stream();
   s << "stamp_ns,wx,wy,wz,ax,ay,az\n" << std::setprecision(9);
-  for (const ImuSample& sample : samples) {
-    s << sample.stamp << ',';
-    write_vector(s, sample.angular_velocity);
+  for (const BiasedImuSample& sample : samples) {
+    s << sample.measured.stamp << ',';
+    write_vector(s, sample.measured.angular_velocity_I);
     s << ',';
-    write_vector(s, sample.specific_force);
+    write_vector(s, sample.measured.acceleration_I);
     s << '\n';
   }
   out.close();
 }
 
-void write_imu_biases(const std::filesystem::path& file, const std::vector<ImuSample>& samples) {
+void write_imu_biases(const std::filesystem::path& file, const std::vector<BiasedImuSample>& samples) {
   TextFile out(file);
   std::ofstream& s = out.stream();
   s << "stamp_ns,bwx,bwy,bwz,bax,bay,baz\n" << std::setprecision(9);
-  for (const ImuSample& sample : samples) {
-    s << sample.stamp << ',';
+  for (const BiasedImuSample& sample : samples) {
+    s << sample.measured.stamp << ',';
     write_vector(s, sample.gyro_bias);
     s << ',';
     write_vector(s, sample.acceleration_bias);
@@ -196,11 +196,11 @@ void write_imu_biases(const std::filesystem::path& file, const std::vector<ImuSa
   out.close();
 }
 
-void write_odometry(const std::filesystem::path& file, const std::vector<OdometryRow>& rows) {
+void write_odometry(const std::filesystem::path& file, const std::vector<WheelOdometrySample>& rows) {
   TextFile out(file);
   std::ofstream& s = out.stream();
   s << "stamp_ns,x_m,y_m,yaw_rad,speed_mps,turn_rate_radps\n" << std::setprecision(9);
-  for (const OdometryRow& row : rows) {
+  for (const WheelOdometrySample& row : rows) {
     s << row.stamp << ',' << row.x << ',' << row.y << ',' << row.yaw << ',' << row.speed << ','
       << row.turn_rate << '\n';
   }

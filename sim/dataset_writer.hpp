@@ -56,9 +56,9 @@ void write_known_points(const std::filesystem::path& file, const std::vector<Kno
 void write_laser(const std::filesystem::path& file, const std::vector<LaserScan>& scans);
 void write_laser_geometry(const std::filesystem::path& file,
                           const std::vector<std::pair<std::string, LaserPlan>>& lasers);
-void write_imu(const std::filesystem::path& file, const std::vector<ImuSample>& samples);
-void write_imu_biases(const std::filesystem::path& file, const std::vector<ImuSample>& samples);
-void write_odometry(const std::filesystem::path& file, const std::vector<OdometryRow>& rows);
+void write_imu(const std::filesystem::path& file, const std::vector<BiasedImuSample>& samples);
+void write_imu_biases(const std::filesystem::path& file, const std::vector<BiasedImuSample>& samples);
+void write_odometry(const std::filesystem::path& file, const std::vector<WheelOdometrySample>& rows);
 void write_overlap(const std::filesystem::path& file, const std::vector<OverlapTruth>& overlap);
 
 }  // namespace cosight::sim

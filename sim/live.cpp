@@ -27,7 +27,7 @@ std::unique_ptr<SampleSource> list(SampleKind kind, const std::vector<Row>& rows
   std::vector<Sample> samples;
   samples.reserve(rows.size());
   for (const Row& row : rows)
-    samples.emplace_back(std::in_place_type<Converted>, convert(row));
+    samples.emplace_back(std::in_place_type<Converted>, std::invoke(convert, row));
   return std::make_unique<SampleListSource>(std::move(samples), kind, SourceCounters{}, "simulated");
 }
 
@@ -47,12 +47,8 @@ std::unique_ptr<SampleSource> scans(const std::vector<LaserScan>& scans, const L
 /// In the order in which a dataset's are played: what belongs to a frame comes before it.
 Sources robot_sources(const SimulatedRun& run, const LiveOptions& options) {
   Sources sources;
-  sources.push_back(list(SampleKind::kWheelOdometry, run.odometry(), [](const OdometryRow& row) {
-    return WheelOdometrySample{row.stamp, row.x, row.y, row.yaw, row.speed, row.turn_rate};
-  }));
-  sources.push_back(list(SampleKind::kImu, run.imu(), [](const ImuSample& row) {
-    return cosight::ImuSample{row.stamp, row.angular_velocity, row.specific_force};
-  }));
+  sources.push_back(list(SampleKind::kWheelOdometry, run.odometry(), std::identity()));
+  sources.push_back(list(SampleKind::kImu, run.imu(), &BiasedImuSample::measured));
   sources.push_back(scans(run.front_scans(), run.scenario().front_laser, "laser_front"));
   sources.push_back(scans(run.rear_scans(), run.scenario().rear_laser, "laser_rear"));
   if (options.tracks_wearer) {

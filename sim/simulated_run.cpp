@@ -75,11 +75,11 @@ std::vector<LaserScan> SimulatedRun::rear_scans() const {
                         mix_bits(seed_ + 2));
 }
 
-std::vector<ImuSample> SimulatedRun::imu() const {
+std::vector<BiasedImuSample> SimulatedRun::imu() const {
   return simulate_imu(scenario_.imu, T_WB(), world_.duration(), seed_);
 }
 
-std::vector<OdometryRow> SimulatedRun::odometry() const {
+std::vector<WheelOdometrySample> SimulatedRun::odometry() const {
   return simulate_odometry(scenario_.odometry, T_WB(), world_.duration(), seed_);
 }
 

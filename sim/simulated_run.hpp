@@ -51,8 +51,8 @@ class SimulatedRun {
   std::vector<AhrsSample> ahrs() const;
   std::vector<LaserScan> front_scans() const;
   std::vector<LaserScan> rear_scans() const;
-  std::vector<ImuSample> imu() const;  ///< the simulator's own, with the true biases
-  std::vector<OdometryRow> odometry() const;
+  std::vector<BiasedImuSample> imu() const;
+  std::vector<WheelOdometrySample> odometry() const;
 
   std::vector<OverlapTruth> overlap() const;  ///< one a frame of Cs
   /// Share of the frames in which Cf sees a useful part of what Cs sees.

@@ -45,7 +45,7 @@ void write_sensors(const SimulatedRun& run, const fs::path& folder) {
   write_laser(robot / "laser_rear.csv", run.rear_scans());
   write_laser_geometry(robot / "lasers.yaml",
                        {{"front", run.scenario().front_laser}, {"rear", run.scenario().rear_laser}});
-  const std::vector<ImuSample> imu = run.imu();
+  const std::vector<BiasedImuSample> imu = run.imu();
   write_imu(robot / "imu.csv", imu);
   write_imu_biases(folder / "truth/imu_bias.csv", imu);
   write_odometry(robot / "odometry.csv", run.odometry());

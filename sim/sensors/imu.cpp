@@ -42,23 +42,23 @@ class Triad {
 
 }  // namespace
 
-std::vector<ImuSample> simulate_imu(const ImuPlan& plan, const Motion& T_WB, double duration,
-                                    std::uint64_t seed) {
+std::vector<BiasedImuSample> simulate_imu(const ImuPlan& plan, const Motion& T_WB, double duration,
+                                          std::uint64_t seed) {
   const double per_sample = std::sqrt(plan.timing.rate);  // a density's deviation in one sample
   Triad gyro(plan.gyro_bias, plan.gyro_bias_wander, plan.wander_time, plan.gyro_density * per_sample, seed,
              "gyro");
   Triad acceleration(plan.acceleration_bias, plan.acceleration_bias_wander, plan.wander_time,
                      plan.acceleration_density * per_sample, seed, "accelerometer");
   const Motion T_WI = [&](double time) { return T_WB(time) * plan.T_BI; };
-  std::vector<ImuSample> samples;
+  std::vector<BiasedImuSample> samples;
   double last = 0.0;
   for (const Tick& tick : ticks(plan.timing, duration, RandomStream(seed, "imu clock"))) {
     const InertialTruth truth = feel(T_WI, tick.time);
     const double step = tick.time - last;
     last = tick.time;
-    ImuSample sample{tick.stamp, {}, {}, gyro.bias(step), acceleration.bias(step)};
-    sample.angular_velocity = truth.angular_velocity + sample.gyro_bias + gyro.white();
-    sample.specific_force = truth.specific_force + sample.acceleration_bias + acceleration.white();
+    BiasedImuSample sample{{.stamp = tick.stamp}, gyro.bias(step), acceleration.bias(step)};
+    sample.measured.angular_velocity_I = truth.angular_velocity + sample.gyro_bias + gyro.white();
+    sample.measured.acceleration_I = truth.specific_force + sample.acceleration_bias + acceleration.white();
     samples.push_back(sample);
   }
   return samples;

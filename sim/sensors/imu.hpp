@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "shared/dataset/stamp.hpp"
+#include "shared/dataset/sample.hpp"
 #include "sim/sensors/inertial.hpp"
 #include "sim/sensors/sensor_clock.hpp"
 
@@ -24,15 +24,13 @@ struct ImuPlan {
 };
 
 /// A measurement as `w + b_w + n_w` and `a + R^T g + b_a + n_a` (V4), and the biases in it.
-struct ImuSample {
-  Stamp stamp = 0;
-  Eigen::Vector3d angular_velocity;   ///< in I [rad/s]
-  Eigen::Vector3d specific_force;     ///< in I [m/s^2]
+struct BiasedImuSample {
+  ImuSample measured;
   Eigen::Vector3d gyro_bias;          ///< truth [rad/s]
   Eigen::Vector3d acceleration_bias;  ///< truth [m/s^2]
 };
 
-std::vector<ImuSample> simulate_imu(const ImuPlan& plan, const Motion& T_WB, double duration,
-                                    std::uint64_t seed);
+std::vector<BiasedImuSample> simulate_imu(const ImuPlan& plan, const Motion& T_WB, double duration,
+                                          std::uint64_t seed);
 
 }  // namespace cosight::sim

@@ -10,8 +10,7 @@ InertialTruth feel(const Motion& T_WB, double time) {
   const Eigen::Vector3d acceleration_W = (after.p - 2.0 * now.p + before.p) / (kStep * kStep);
   const Eigen::AngleAxisd turned((before.q.conjugate() * after.q).normalized());
   return {turned.axis() * turned.angle() / (2.0 * kStep),
-          now.q.conjugate() * (acceleration_W + Eigen::Vector3d(0.0, 0.0, kGravity)),
-          (after.p - before.p) / (2.0 * kStep)};
+          now.q.conjugate() * (acceleration_W + Eigen::Vector3d(0.0, 0.0, kGravity))};
 }
 
 }  // namespace cosight::sim

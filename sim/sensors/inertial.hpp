@@ -13,7 +13,6 @@ using Motion = std::function<Pose(double time)>;
 struct InertialTruth {
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  ///< [rad/s]
   Eigen::Vector3d specific_force = Eigen::Vector3d::Zero();    ///< acceleration minus gravity [m/s^2]
-  Eigen::Vector3d velocity_W = Eigen::Vector3d::Zero();        ///< [m/s]
 };
 
 constexpr double kGravity = 9.80665;  ///< along -z of W [m/s^2]

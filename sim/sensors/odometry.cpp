@@ -13,15 +13,15 @@ double yaw_of(const Pose& T_WB) {
 
 }  // namespace
 
-std::vector<OdometryRow> simulate_odometry(const OdometryPlan& plan, const Motion& T_WB, double duration,
-                                           std::uint64_t seed) {
+std::vector<WheelOdometrySample> simulate_odometry(const OdometryPlan& plan, const Motion& T_WB,
+                                                   double duration, std::uint64_t seed) {
   RandomStream random(seed, "odometry noise");
   const double scale = 1.0 + plan.scale_sigma * random.normal();
   const double turn_scale = 1.0 + plan.turn_scale_sigma * random.normal();
-  std::vector<OdometryRow> rows;
+  std::vector<WheelOdometrySample> rows;
   Pose last = T_WB(0.0);
   double last_time = 0.0;
-  OdometryRow row;
+  WheelOdometrySample row;
   for (const Tick& tick : ticks(plan.timing, duration, RandomStream(seed, "odometry clock"))) {
     const Pose now = T_WB(tick.time);
     const double middle =

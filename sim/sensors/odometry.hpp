@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "shared/dataset/stamp.hpp"
+#include "shared/dataset/sample.hpp"
 #include "sim/sensors/inertial.hpp"
 #include "sim/sensors/sensor_clock.hpp"
 
@@ -18,16 +18,8 @@ struct OdometryPlan {
   double turn_slip = 0.01;         ///< deviation of the heading per root of a metre [rad/sqrt(m)]
 };
 
-/// The pose since the start, in the frame of the first one.
-struct OdometryRow {
-  Stamp stamp = 0;
-  double x = 0.0, y = 0.0;  ///< [m]
-  double yaw = 0.0;         ///< [rad]
-  double speed = 0.0;       ///< forward [m/s]
-  double turn_rate = 0.0;   ///< [rad/s]
-};
-
-std::vector<OdometryRow> simulate_odometry(const OdometryPlan& plan, const Motion& T_WB, double duration,
-                                           std::uint64_t seed);
+/// O is the frame of the first pose.
+std::vector<WheelOdometrySample> simulate_odometry(const OdometryPlan& plan, const Motion& T_WB,
+                                                   double duration, std::uint64_t seed);
 
 }  // namespace cosight::sim

@@ -33,13 +33,15 @@ TEST(SimulateImu, IntegratesBackToItsTrajectory) {
   Pose T_WI = robot.at(0.0) * plan.T_BI;
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
   for (std::size_t k = 1; k < samples.size(); ++k) {
-    const double dt = to_seconds(samples[k].stamp - samples[k - 1].stamp);
-    const Eigen::Vector3d turn = 0.5 * dt * (samples[k - 1].angular_velocity + samples[k].angular_velocity);
+    const ImuSample& before = samples[k - 1].measured;
+    const ImuSample& now = samples[k].measured;
+    const double dt = to_seconds(now.stamp - before.stamp);
+    const Eigen::Vector3d turn = 0.5 * dt * (before.angular_velocity_I + now.angular_velocity_I);
     const Eigen::Quaterniond q_next =
         turn.norm() > 0 ? Eigen::Quaterniond(T_WI.q * Eigen::AngleAxisd(turn.norm(), turn.normalized()))
                         : T_WI.q;
     const Eigen::Vector3d acceleration =
-        0.5 * (T_WI.q * samples[k - 1].specific_force + q_next * samples[k].specific_force) + gravity;
+        0.5 * (T_WI.q * before.acceleration_I + q_next * now.acceleration_I) + gravity;
     T_WI.p += dt * velocity + 0.5 * dt * dt * acceleration;
     velocity += dt * acceleration;
     T_WI.q = q_next.normalized();
@@ -53,8 +55,8 @@ TEST(SimulateImu, IntegratesBackToItsTrajectory) {
 TEST(SimulateImu, FeelsOnlyGravityAtRest) {
   const auto samples = simulate_imu(
       perfect(), [](double) { return Pose{}; }, 0.1, 1);
-  EXPECT_NEAR((samples[3].specific_force - Eigen::Vector3d(0, 0, 9.80665)).norm(), 0.0, 1e-9);
-  EXPECT_NEAR(samples[3].angular_velocity.norm(), 0.0, 1e-12);
+  EXPECT_NEAR((samples[3].measured.acceleration_I - Eigen::Vector3d(0, 0, 9.80665)).norm(), 0.0, 1e-9);
+  EXPECT_NEAR(samples[3].measured.angular_velocity_I.norm(), 0.0, 1e-12);
 }
 
 TEST(SimulateImu, HasTheNoiseOfItsDensityAndTheBiasThatItReports) {
@@ -62,8 +64,8 @@ TEST(SimulateImu, HasTheNoiseOfItsDensityAndTheBiasThatItReports) {
   const auto samples = simulate_imu(
       plan, [](double) { return Pose{}; }, 100.0, 3);
   double squares = 0.0;
-  for (const ImuSample& sample : samples) {
-    squares += (sample.angular_velocity - sample.gyro_bias).squaredNorm();
+  for (const BiasedImuSample& sample : samples) {
+    squares += (sample.measured.angular_velocity_I - sample.gyro_bias).squaredNorm();
   }
   const double deviation = std::sqrt(squares / (3.0 * static_cast<double>(samples.size())));
   EXPECT_NEAR(deviation, plan.gyro_density * std::sqrt(200.0), 0.03 * deviation);
