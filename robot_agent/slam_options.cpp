@@ -112,6 +112,7 @@ slam::StartOptions read_start(const ConfigNode& node) {
   o.min_landmarks_later = node.integer("min_landmarks_later", o.min_landmarks_later, 1, 500);
   o.patience_s = node.number("patience_s", o.patience_s, 0.0, 3600.0);
   o.min_landmarks = node.integer("min_landmarks", o.min_landmarks, 4, 500);
+  o.assumed_depth = node.number("assumed_depth", o.assumed_depth, 0.0, 1e6);
   o.overlap_s = node.number("overlap_s", o.overlap_s, 0.0, 1e9);
   o.known_point_sigma = node.number("known_point_sigma", o.known_point_sigma, 0.0, 10.0);
   o.known_pixel_sigma = node.number("known_pixel_sigma", o.known_pixel_sigma, 0.05, 50.0);

@@ -134,6 +134,10 @@ class Filter {
   /// Delayed, first pose a clone in the state: the consistent way.
   std::optional<LandmarkId> add_delayed_landmark(CloneId first_pose, const Eigen::Vector2d& first_pixel,
                                                  const Eigen::Vector2d& pixel_now);
+  /// A pixel whose depth is only assumed: rho = 1/depth with a standard deviation of `relative_sigma` times
+  /// that. The scale that such landmarks give is arbitrary.
+  std::optional<LandmarkId> add_landmark_at_depth(const Eigen::Vector2d& pixel, double depth,
+                                                  double relative_sigma);
   /// A surveyed point, kept as a Euclidean block. `covariance` [m^2] may be zero.
   std::optional<LandmarkId> add_known_point(const Eigen::Vector3d& p_W, const Eigen::Matrix3d& covariance);
   /// Keeps an inverse-depth landmark as a point from now on (3 instead of 6 rows of P). False when rho is

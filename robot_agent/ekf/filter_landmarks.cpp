@@ -163,6 +163,22 @@ std::optional<LandmarkId> Filter::add_delayed_landmark(CloneId first_pose, const
   return append_landmark(start->at.y.vector(), on_both, noise);
 }
 
+std::optional<LandmarkId> Filter::add_landmark_at_depth(const Eigen::Vector2d& pixel, double depth,
+                                                        double relative_sigma) {
+  Eigen::Matrix<double, 3, 2> ray_pixel;
+  const auto ray_S = camera_model_.unproject(pixel, &ray_pixel);
+  auto start = ray_S && has_room() ? anchor(camera(), *ray_S) : std::nullopt;
+  if (!start) return std::nullopt;
+  start->y.rho = 1.0 / depth;
+  const Eigen::Matrix2d angles_pixel = start->angles_ray_S * ray_pixel;
+  Noise noise = Noise::Zero();
+  noise.block<2, 2>(Point::kTheta, Point::kTheta) =
+      options_.pixel_sigma * options_.pixel_sigma * angles_pixel * angles_pixel.transpose();
+  noise(Point::kRho, Point::kRho) = relative_sigma * relative_sigma / (depth * depth);
+  const Dependence on_camera{0, start->y_camera};
+  return append_landmark(start->y.vector(), {&on_camera, 1}, noise);
+}
+
 std::optional<LandmarkId> Filter::add_known_point(const Eigen::Vector3d& p_W,
                                                   const Eigen::Matrix3d& covariance) {
   if (!has_room() || !p_W.allFinite()) return std::nullopt;

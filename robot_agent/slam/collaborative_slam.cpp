@@ -323,6 +323,8 @@ void CollaborativeSlam::begin(const GrayImage& image, const std::optional<Stereo
                               const WornMatches& matches, FrameEstimate& estimate) {
   if (!known_points_.empty() && start_from_known_points(known_points_, image, options_, filter_, tracks_)) {
     tracking_ = Tracking::kTracking;
+  } else if (options_.start.assumed_depth > 0.0) {
+    if (start_at_assumed_depth(image, corners_, options_, filter_, tracks_)) tracking_ = Tracking::kTracking;
   } else if (view) {
     estimate.landmarks_added = add_pseudo_stereo(
         image, *view, matches, {options_.start.first_landmarks, 2 * options_.start.first_landmarks},

@@ -16,6 +16,17 @@ std::vector<vision::KnownPoint> points_in_view(const std::vector<KnownPoint>& po
   return in_view;
 }
 
+LandmarkTrack first_track(ekf::LandmarkId id, const GrayImage& image, const Eigen::Vector2d& pixel,
+                          const Pose& T_WS) {
+  LandmarkTrack track;
+  track.id = id;
+  track.reference = vision::cut_reference(image, pixel);
+  track.T_WS_reference = T_WS;
+  track.pixel = pixel;
+  track.found = true;
+  return track;
+}
+
 }  // namespace
 
 bool start_from_known_points(const std::vector<KnownPoint>& points, const GrayImage& image,
@@ -31,14 +42,19 @@ bool start_from_known_points(const std::vector<KnownPoint>& points, const GrayIm
   const double variance = options.start.known_point_sigma * options.start.known_point_sigma;
   for (const vision::KnownPoint& point : in_view) {
     const auto id = filter.add_known_point(point.p_W, variance * Eigen::Matrix3d::Identity());
-    if (!id) continue;
-    LandmarkTrack track;
-    track.id = *id;
-    track.reference = vision::cut_reference(image, point.pixel);
-    track.T_WS_reference = pose->T_WC.T;
-    track.pixel = point.pixel;
-    track.found = true;
-    tracks.add(std::move(track));
+    if (id) tracks.add(first_track(*id, image, point.pixel, pose->T_WC.T));
+  }
+  return true;
+}
+
+bool start_at_assumed_depth(const GrayImage& image, const vision::CornerDetector& detector,
+                            const SlamOptions& options, ekf::Filter& filter, LandmarkTracks& tracks) {
+  const auto corners = detector.detect(image, {}, options.start.first_landmarks);
+  if (static_cast<int>(corners.size()) < options.start.min_landmarks) return false;
+  constexpr double kRelativeSigma = 0.5;
+  for (const vision::Corner& corner : corners) {
+    const auto id = filter.add_landmark_at_depth(corner.pixel, options.start.assumed_depth, kRelativeSigma);
+    if (id) tracks.add(first_track(*id, image, corner.pixel, filter.camera().T_WS()));
   }
   return true;
 }

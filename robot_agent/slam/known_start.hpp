@@ -6,6 +6,7 @@
 #include "robot_agent/ekf/filter.hpp"
 #include "robot_agent/slam/landmark_tracks.hpp"
 #include "robot_agent/slam/options.hpp"
+#include "robot_agent/vision/corner_detector.hpp"
 #include "shared/dataset/known_point.hpp"
 #include "shared/image/gray_image.hpp"
 
@@ -17,5 +18,10 @@ namespace cosight::slam {
 /// changed then.
 bool start_from_known_points(const std::vector<KnownPoint>& points, const GrayImage& image,
                              const SlamOptions& options, ekf::Filter& filter, LandmarkTracks& tracks);
+
+/// Starts the map with corners of the first image, all at `start.assumed_depth`: nothing tells the scale.
+/// False, and nothing changed, with fewer than `start.min_landmarks`.
+bool start_at_assumed_depth(const GrayImage& image, const vision::CornerDetector& detector,
+                            const SlamOptions& options, ekf::Filter& filter, LandmarkTracks& tracks);
 
 }  // namespace cosight::slam

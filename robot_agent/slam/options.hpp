@@ -120,12 +120,15 @@ struct MapOptions {
 struct StartOptions {
   /// Where the camera starts. The default looks along x of W, level.
   Pose T_WS{Eigen::Quaterniond(0.5, -0.5, 0.5, -0.5), Eigen::Vector3d::Zero()};
-  double sigma_position = 1e-3;     ///< of that pose [m]
-  double sigma_rotation = 1e-3;     ///< [rad]
-  int first_landmarks = 40;         ///< pseudo-stereo landmarks wanted from the first overlap
-  int min_landmarks = 12;           ///< pseudo-stereo landmarks that make a first overlap good enough
-  int min_landmarks_later = 6;      ///< the same once the views have overlapped for `patience_s` in vain
-  double patience_s = 1.0;          ///< few landmarks hang on one another's errors: a better view may come
+  double sigma_position = 1e-3;  ///< of that pose [m]
+  double sigma_rotation = 1e-3;  ///< [rad]
+  int first_landmarks = 40;      ///< pseudo-stereo landmarks wanted from the first overlap
+  int min_landmarks = 12;        ///< pseudo-stereo landmarks that make a first overlap good enough
+  int min_landmarks_later = 6;   ///< the same once the views have overlapped for `patience_s` in vain
+  double patience_s = 1.0;       ///< few landmarks hang on one another's errors: a better view may come
+  /// Without a wearer and surveyed points: depth of the first landmarks, give or take a half [m]. The scale
+  /// of everything is then arbitrary, and drifts. 0: no start without a scale.
+  double assumed_depth = 0.0;
   double overlap_s = 0.35;          ///< mono: Cf may set the scale so long, and is not used again
   double known_point_sigma = 1e-3;  ///< of surveyed points [m]
   double known_pixel_sigma = 1.0;   ///< of their pixels in the first frame [px]

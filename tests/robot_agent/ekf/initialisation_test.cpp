@@ -135,6 +135,21 @@ TEST_P(Initialisation, DelayedCovarianceIsThatOfSamples) {
   EXPECT_LT(difference(P, covariance_of(draws)), kTolerance);
 }
 
+TEST_P(Initialisation, AnAssumedDepthStandsAtThePixelWithTheDoubtThatIsGiven) {
+  const Vector2d pixel(300.0, 200.0);
+  const auto id = filter->add_landmark_at_depth(pixel, 4.0, 0.5);
+  ASSERT_TRUE(id);
+  const auto landmark = filter->landmark(*id);
+  EXPECT_NEAR(landmark->y.rho, 0.25, 1e-12);
+  EXPECT_NEAR(landmark->sigma_rho, 0.125, 1e-12);
+  const auto predicted = filter->predict_pixel(*id);
+  ASSERT_TRUE(predicted);
+  EXPECT_LT((predicted->pixel - pixel).norm(), 1e-6);
+  // Its ray came from this very camera, whose own error cancels: what is left is the noise of two pixels.
+  const double variance = 2.0 * filter->options().pixel_sigma * filter->options().pixel_sigma;
+  EXPECT_LT((predicted->S - variance * Eigen::Matrix2d::Identity()).norm(), 1e-3 * variance);
+}
+
 TEST_P(Initialisation, KnownPointsMayBeExact) {
   const Vector3d p_W = T_WS.T * Vector3d(0.1, 0.2, 2.0);
   const auto id = filter->add_known_point(p_W, Eigen::Matrix3d::Zero());

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "shared/evaluation/trajectory_errors.hpp"
 #include "tests/robot_agent/slam/two_camera_world.hpp"
 
 namespace cosight::slam {
@@ -158,6 +159,21 @@ TEST(CollaborativeSlam, StartsFromKnownPointsWithoutAWearer) {
   const double allowed = 0.03 + 0.05 * world().path_length(0, 19);
   EXPECT_LT(position_error(estimates.back(), 19), allowed);
   EXPECT_EQ(points_fused(estimates), 0);
+}
+
+TEST(CollaborativeSlam, AnAssumedDepthGivesTheShapeOfTheWayWithoutItsScale) {
+  const TwoCameraWorld& world = TwoCameraWorld::instance();
+  SlamOptions options = world.options();
+  options.start.assumed_depth = 3.0;
+  CollaborativeSlam slam(world.camera(), options);
+  std::vector<PosePair> pairs;
+  for (int i = 0; i < TwoCameraWorld::kFrames; ++i) {
+    const FrameEstimate estimate = slam.process(world.without_wearer(i));
+    EXPECT_EQ(estimate.tracking, Tracking::kTracking) << i;
+    pairs.push_back({estimate.stamp, estimate.T_WS.T, world.T_WS(i)});
+  }
+  const double way = world.path_length(0, TwoCameraWorld::kFrames - 1);
+  EXPECT_LT(statistics_of(position_errors(aligned(pairs, *align(pairs, Alignment::kSim3)))).rmse, 0.05 * way);
 }
 
 TEST(CollaborativeSlam, RefusesAStartFromFewerThanFourKnownPoints) {
