@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
+#include "robot_agent/slam/prediction_summary.hpp"
+#include "robot_agent/slam/rig_refinement.hpp"
+#include "robot_agent/slam/start_landmarks.hpp"
 #include "robot_agent/slam/stopwatch.hpp"
 #include "robot_agent/slam/wearer_silhouette.hpp"
 #include "robot_agent/vision/patch_warp.hpp"
@@ -39,29 +41,6 @@ UncertainPose start_pose(const StartOptions& start) {
   T_WS.covariance.diagonal().head<3>().setConstant(start.sigma_position * start.sigma_position);
   T_WS.covariance.diagonal().tail<3>().setConstant(start.sigma_rotation * start.sigma_rotation);
   return T_WS;
-}
-
-/// What is assumed of a point without depth: the median depth of the landmarks in view [m].
-double usual_depth(const std::vector<ekf::PixelPrediction>& predictions) {
-  std::vector<double> depths;
-  for (const auto& prediction : predictions) {
-    if (std::isfinite(prediction.depth) && prediction.depth > 0.0) depths.push_back(prediction.depth);
-  }
-  constexpr double kIndoors = 4.0;
-  if (depths.empty()) return kIndoors;
-  const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
-  std::nth_element(depths.begin(), middle, depths.end());
-  return *middle;
-}
-
-/// Half of the nearest landmark's depth [m], 0 without any: a band that goes on to the lens would cost ten
-/// times as much, for points that the next frames see anyway.
-double expected_near(const std::vector<ekf::PixelPrediction>& predictions) {
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const auto& prediction : predictions) {
-    if (prediction.depth > 0.0) nearest = std::min(nearest, prediction.depth);
-  }
-  return std::isfinite(nearest) ? 0.5 * nearest : 0.0;
 }
 
 }  // namespace
@@ -156,13 +135,7 @@ void CollaborativeSlam::see_wearer(const FrameBundle& bundle) {
 
 bool CollaborativeSlam::is_wide(const std::vector<ekf::PixelPrediction>& predictions) const {
   if (predictions.empty()) return !tracks_.all().empty();
-  std::vector<double> sigmas;
-  sigmas.reserve(predictions.size());
-  for (const auto& prediction : predictions)
-    sigmas.push_back(std::sqrt(0.5 * prediction.S.trace()));
-  const auto middle = sigmas.begin() + static_cast<std::ptrdiff_t>(sigmas.size() / 2);
-  std::nth_element(sigmas.begin(), middle, sigmas.end());
-  return *middle > options_.search.wide_prior_px;
+  return median_sigma(predictions) > options_.search.wide_prior_px;
 }
 
 bool CollaborativeSlam::may_use_wearer(Stamp stamp) const {
@@ -209,24 +182,13 @@ std::optional<StereoView> CollaborativeSlam::wearer_view(const FrameBundle& bund
   return view;
 }
 
-// What the matches alone say of Cf's yaw: the refined pose holds the sensors' as well, which the offset knows
-// already. With variances p before and q after: 1/r = 1/q - 1/p, and the step from the prior mean grows by
-// p/(p-q).
 void CollaborativeSlam::learn_yaw_offset(const WearerView& wearer, const StereoView& view) {
-  constexpr Eigen::Index kYaw = 2;
   if (wearer.has_orientation || !wearer.q_WF) return;
-  const Eigen::Matrix3d R_WS = filter_.camera().q_WS.toRotationMatrix();
-  const auto yaw_variance = [&](const UncertainPose& T_SF) {
-    return (R_WS * T_SF.covariance.bottomRightCorner<3, 3>() * R_WS.transpose())(kYaw, kYaw);
-  };
-  const double p = yaw_variance(view.sensed_T_SF);
-  const double q = yaw_variance(view.rig.T_SF);
-  if (!(q < 0.8 * p)) return;
-  const Eigen::Quaterniond step = view.rig.T_SF.T.q * view.sensed_T_SF.T.q.conjugate();
-  const double yaw = (R_WS * quaternion_log(step))(kYaw)*p / (p - q);
+  const auto yaw = yaw_by_matches(view.sensed_T_SF, view.rig.T_SF, filter_.camera().q_WS.toRotationMatrix());
+  if (!yaw) return;
   const Eigen::Quaterniond turn(
-      Eigen::AngleAxisd(yaw_offset_.yaw_WA(wearer.stamp).angle + yaw, Eigen::Vector3d::UnitZ()));
-  const Eigen::Matrix3d covariance = Eigen::Vector3d(0.0, 0.0, p * q / (p - q)).asDiagonal();
+      Eigen::AngleAxisd(yaw_offset_.yaw_WA(wearer.stamp).angle + yaw->angle, Eigen::Vector3d::UnitZ()));
+  const Eigen::Matrix3d covariance = Eigen::Vector3d(0.0, 0.0, yaw->sigma * yaw->sigma).asDiagonal();
   yaw_offset_.sighting(wearer.stamp, turn * *wearer.q_WF, covariance, *wearer.q_WF);
 }
 
@@ -296,7 +258,7 @@ void CollaborativeSlam::note_fused(const std::vector<Sighting>& sightings, const
 void CollaborativeSlam::renew_map(const GrayImage& image, const std::optional<StereoView>& view,
                                   const WornMatches& matches, FrameEstimate& estimate, Stopwatch& watch) {
   if (tracking_ == Tracking::kWaitingForScale) {
-    begin(image, view, matches, estimate);
+    begin(image, view, estimate);
     watch.lap(estimate.timings.pseudo_stereo);
     return;
   }
@@ -320,14 +282,14 @@ void CollaborativeSlam::renew_map(const GrayImage& image, const std::optional<St
 }
 
 void CollaborativeSlam::begin(const GrayImage& image, const std::optional<StereoView>& view,
-                              const WornMatches& matches, FrameEstimate& estimate) {
+                              FrameEstimate& estimate) {
   if (!known_points_.empty() && start_from_known_points(known_points_, image, options_, filter_, tracks_)) {
     tracking_ = Tracking::kTracking;
   } else if (options_.start.assumed_depth > 0.0) {
     if (start_at_assumed_depth(image, corners_, options_, filter_, tracks_)) tracking_ = Tracking::kTracking;
   } else if (view) {
     estimate.landmarks_added = add_pseudo_stereo(
-        image, *view, matches, {options_.start.first_landmarks, 2 * options_.start.first_landmarks},
+        image, *view, {}, {options_.start.first_landmarks, 2 * options_.start.first_landmarks},
         estimate.pseudo_stereo);
     if (is_good_start(estimate.stamp)) {
       tracking_ = Tracking::kTracking;
@@ -348,44 +310,13 @@ bool CollaborativeSlam::is_good_start(Stamp stamp) const {
   return filter_.landmark_count() >= (is_late ? start.min_landmarks_later : start.min_landmarks);
 }
 
-std::vector<std::optional<ekf::LandmarkId>> CollaborativeSlam::start_landmarks(
-    const std::vector<NewPoint>& points, const ekf::StereoRig& rig) {
-  std::vector<ekf::StereoMatch> matches;
-  matches.reserve(points.size());
-  for (const NewPoint& point : points)
-    matches.push_back(point.match);
-  if (options_.pseudo_stereo.correlated_starts) return filter_.add_pseudo_stereo_landmarks(matches, rig);
-  std::vector<std::optional<ekf::LandmarkId>> ids;
-  ids.reserve(matches.size());
-  for (const ekf::StereoMatch& match : matches)
-    ids.push_back(filter_.add_pseudo_stereo_landmark(match, rig));
-  return ids;
-}
-
 int CollaborativeSlam::add_pseudo_stereo(const GrayImage& image, const StereoView& view,
                                          const WornMatches& matches, const NewPoints::Budget& budget,
                                          PseudoStereoCounts& counts) {
   const auto points =
       wearer_matcher_.new_points(view, image, matches, tracks_.found_pixels(), budget, counts);
-  const auto ids = start_landmarks(points, view.rig);
-  int added = 0;
-  for (std::size_t i = 0; i < ids.size(); ++i) {
-    if (!ids[i]) {
-      ++(filter_.has_room() ? counts.too_little_parallax : counts.redundant);
-      continue;
-    }
-    LandmarkTrack track;
-    track.id = *ids[i];
-    track.reference = vision::cut_reference(image, points[i].match.pixel_S);
-    track.T_WS_reference = filter_.camera().T_WS();
-    if (points[i].normal_S) track.normal_W = filter_.camera().q_WS * *points[i].normal_S;
-    track.pixel = points[i].match.pixel_S;
-    track.found = true;
-    tracks_.add(std::move(track));
-    ++added;
-  }
-  counts.initialised += added;
-  return added;
+  return start_landmarks(points, view.rig, image, options_.pseudo_stereo.correlated_starts, filter_, tracks_,
+                         counts);
 }
 
 void CollaborativeSlam::renew_references(const GrayImage& image) {

@@ -57,10 +57,7 @@ class CollaborativeSlam {
                   FrameEstimate& estimate);
   void renew_map(const GrayImage& image, const std::optional<StereoView>& view, const WornMatches& matches,
                  FrameEstimate& estimate, Stopwatch& watch);
-  void begin(const GrayImage& image, const std::optional<StereoView>& view, const WornMatches& matches,
-             FrameEstimate& estimate);
-  std::vector<std::optional<ekf::LandmarkId>> start_landmarks(const std::vector<NewPoint>& points,
-                                                              const ekf::StereoRig& rig);
+  void begin(const GrayImage& image, const std::optional<StereoView>& view, FrameEstimate& estimate);
   int add_pseudo_stereo(const GrayImage& image, const StereoView& view, const WornMatches& matches,
                         const NewPoints::Budget& budget, PseudoStereoCounts& counts);
   void renew_references(const GrayImage& image);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include "robot_agent/slam/epipolar_error.hpp"
 #include "shared/geometry/rotation.hpp"
 
 namespace cosight::slam {
@@ -14,31 +15,9 @@ namespace {
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-/// A match as two unit rays, with what a pixel of noise does to each.
-struct RayPair {
-  Eigen::Vector3d m_S, m_F;
-  Eigen::Matrix<double, 3, 2> J_S, J_F;
-};
-
-std::optional<RayPair> rays_of(const ekf::StereoRig& rig, const ekf::StereoMatch& match) {
-  RayPair pair;
-  const auto m_S = rig.camera_S.unproject(match.pixel_S, &pair.J_S);
-  const auto m_F = rig.camera_F.unproject(match.pixel_F, &pair.J_F);
-  if (!m_S || !m_F) return std::nullopt;
-  pair.m_S = *m_S;
-  pair.m_F = *m_F;
-  return pair;
-}
-
 Pose moved(const Pose& T, const Vector6& xi) {
   return {(quaternion_exp(xi.tail<3>()) * T.q).normalized(), T.p + xi.head<3>()};
 }
-
-/// e / sigma, and its gradient by [dp, dtheta] of T_SF in the axes of S.
-struct EpipolarError {
-  double value = 0.0;
-  Eigen::Matrix<double, 1, 6> J;
-};
 
 class EpipolarProblem {
  public:
@@ -57,19 +36,7 @@ class EpipolarProblem {
   const Matrix6& factor() const { return factor_; }
 
   EpipolarError error(std::size_t i, const Pose& T_SF) const {
-    const RayPair& pair = *pairs_[i];
-    const Eigen::Matrix3d R = T_SF.q.toRotationMatrix();
-    const Eigen::Vector3d n = R * pair.m_F;
-    const Eigen::Vector3d c = pair.m_S.cross(n);
-    const Eigen::Vector3d t_m = T_SF.p.cross(pair.m_S);
-    const Eigen::RowVector2d by_S = n.cross(T_SF.p).transpose() * pair.J_S;
-    const Eigen::RowVector2d by_F = (R.transpose() * t_m).transpose() * pair.J_F;
-    const double variance = variance_S_ * by_S.squaredNorm() + variance_F_ * by_F.squaredNorm();
-    const double weight = variance > 0.0 ? 1.0 / std::sqrt(variance) : 0.0;
-    EpipolarError error;
-    error.value = weight * T_SF.p.dot(c);
-    error.J << weight * c.transpose(), weight * n.cross(t_m).transpose();
-    return error;
+    return epipolar_error(*pairs_[i], T_SF, variance_S_, variance_F_);
   }
 
   /// One Gauss-Newton step of z ~ N(0, I), xi = L z, from the given matches with Cauchy's weights beyond
@@ -180,6 +147,20 @@ std::optional<RefinedRig> refine_rig(const ekf::StereoRig& rig, std::span<const 
   const Matrix6 half = problem.factor() * information.llt().solve(Matrix6::Identity());
   refined.T_SF.covariance = half * problem.factor().transpose();
   return refined;
+}
+
+std::optional<wearer::UncertainAngle> yaw_by_matches(const UncertainPose& sensed,
+                                                     const UncertainPose& refined,
+                                                     const Eigen::Matrix3d& R_WS) {
+  constexpr Eigen::Index kYaw = 2;
+  const auto yaw_variance = [&](const UncertainPose& T_SF) {
+    return (R_WS * T_SF.covariance.bottomRightCorner<3, 3>() * R_WS.transpose())(kYaw, kYaw);
+  };
+  const double p = yaw_variance(sensed);
+  const double q = yaw_variance(refined);
+  if (!(q < 0.8 * p)) return std::nullopt;
+  const Eigen::Quaterniond step = refined.T.q * sensed.T.q.conjugate();
+  return wearer::UncertainAngle{(R_WS * quaternion_log(step))(kYaw)*p / (p - q), std::sqrt(p * q / (p - q))};
 }
 
 }  // namespace cosight::slam

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "robot_agent/ekf/triangulation.hpp"
+#include "robot_agent/wearer/uncertain_angle.hpp"
 #include "shared/geometry/uncertain_pose.hpp"
 
 namespace cosight::slam {
@@ -37,5 +38,12 @@ struct RefinedRig {
 /// Nothing when too few matches agree.
 std::optional<RefinedRig> refine_rig(const ekf::StereoRig& rig, std::span<const ekf::StereoMatch> matches,
                                      const RigRefinementOptions& options = {});
+
+/// What the matches alone say of Cf's yaw in W, from the sensed pose [rad]. The refined pose holds what the
+/// sensors say as well: with variances p before and q after, 1/r = 1/q - 1/p, and the step from the sensed
+/// yaw grows by p/(p-q). Nothing where the matches say little.
+std::optional<wearer::UncertainAngle> yaw_by_matches(const UncertainPose& sensed,
+                                                     const UncertainPose& refined,
+                                                     const Eigen::Matrix3d& R_WS);
 
 }  // namespace cosight::slam

@@ -73,9 +73,7 @@ std::vector<NewPoint> WearerMatcher::new_points(const StereoView& view, const Gr
                                                 const WornMatches& matches,
                                                 const std::vector<Eigen::Vector2d>& occupied,
                                                 const NewPoints::Budget& budget, PseudoStereoCounts& counts) {
-  const bool is_small = budget.tries <= 2 * options_.max_new_tries;
-  if (!matches.corners.empty() && is_small)
-    return new_points_.judge(view, matches.corners, budget.points, counts);
+  if (!matches.corners.empty()) return new_points_.judge(view, matches.corners, budget.points, counts);
   return new_points_.find(view, image_S, occupied, budget, counts);
 }
 

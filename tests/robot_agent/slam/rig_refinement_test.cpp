@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 #include <random>
 
+#include "robot_agent/slam/epipolar_error.hpp"
 #include "shared/geometry/rotation.hpp"
 
 namespace cosight::slam {
@@ -39,17 +40,27 @@ class Trial {
     rig_.T_SF.T = {quaternion_exp(xi.tail<3>()) * truth_.q, truth_.p + xi.head<3>()};
   }
 
-  std::vector<ekf::StereoMatch> matches(int right, int wrong) {
+  std::vector<ekf::StereoMatch> exact_matches(int count) {
     std::uniform_real_distribution<double> share(0.0, 1.0);
     std::vector<ekf::StereoMatch> result;
-    while (static_cast<int>(result.size()) < right) {
+    while (static_cast<int>(result.size()) < count) {
       const double depth = 2.5 + 8.0 * share(random_);
       const Eigen::Vector3d p_S(depth * (1.2 * share(random_) - 0.6), depth * (0.8 * share(random_) - 0.4),
                                 depth);
       const auto pixel_S = camera().project(p_S);
       const auto pixel_F = camera().project(truth_.inverse() * p_S);
       if (!pixel_S || !pixel_F || !camera().contains(*pixel_S) || !camera().contains(*pixel_F)) continue;
-      result.push_back({*pixel_S + noise(), *pixel_F + noise()});
+      result.push_back({*pixel_S, *pixel_F});
+    }
+    return result;
+  }
+
+  std::vector<ekf::StereoMatch> matches(int right, int wrong) {
+    std::uniform_real_distribution<double> share(0.0, 1.0);
+    std::vector<ekf::StereoMatch> result = exact_matches(right);
+    for (ekf::StereoMatch& match : result) {
+      match.pixel_S += noise();
+      match.pixel_F += noise();
     }
     for (int i = 0; i < wrong; ++i) {
       const Eigen::Vector2d pixel_S(720.0 * share(random_), 480.0 * share(random_));
@@ -60,6 +71,7 @@ class Trial {
   }
 
   const ekf::StereoRig& rig() const { return rig_; }
+  const Pose& truth() const { return truth_; }
   /// [dp, dtheta] that takes an estimate to the truth.
   Vector6 error_of(const Pose& T_SF) const {
     Vector6 error;
@@ -121,8 +133,53 @@ TEST(RefineRig, StatesItsOwnError) {
   EXPECT_LT(nees, 7.0);
 }
 
+TEST(EpipolarErrorOfAMatch, HasTheGradientThatNumbersGive) {
+  Trial trial(5);
+  ekf::StereoRig rig = trial.rig();
+  rig.T_SF.T = trial.truth();  // there the error is zero, and that of its weight does not matter
+  for (const ekf::StereoMatch& match : trial.exact_matches(20)) {
+    const auto pair = rays_of(rig, match);
+    ASSERT_TRUE(pair);
+    const auto value = [&](const Vector6& xi) {
+      const Pose moved{quaternion_exp(xi.tail<3>()) * rig.T_SF.T.q, rig.T_SF.T.p + xi.head<3>()};
+      return epipolar_error(*pair, moved, 0.25, 0.5).value;
+    };
+    EXPECT_NEAR(value(Vector6::Zero()), 0.0, 1e-6);
+    Eigen::Matrix<double, 1, 6> numeric;
+    constexpr double kStep = 1e-6;
+    for (int i = 0; i < 6; ++i)
+      numeric(i) = (value(kStep * Vector6::Unit(i)) - value(-kStep * Vector6::Unit(i))) / (2.0 * kStep);
+    const auto J = epipolar_error(*pair, rig.T_SF.T, 0.25, 0.5).J;
+    EXPECT_LT((J - numeric).norm(), 1e-5 * numeric.norm());
+  }
+}
+
+TEST(YawByMatches, TakesTheSensorsOutOfTheRefinedPose) {
+  // Two Gaussians of one angle about the vertical: the sensors' at 0 and the matches' at 0.03.
+  const double p = 4e-4;
+  const double r = 1e-4;
+  const double q = 1.0 / (1.0 / p + 1.0 / r);
+  const Eigen::Matrix3d R_WS = Eigen::Quaterniond(0.5, -0.5, 0.5, -0.5).toRotationMatrix();
+  const auto pose_of = [&](double yaw, double variance) {
+    UncertainPose T_SF;
+    T_SF.T.q = quaternion_exp(R_WS.transpose() * Eigen::Vector3d(0.0, 0.0, yaw));
+    T_SF.covariance.bottomRightCorner<3, 3>() = variance * Eigen::Matrix3d::Identity();
+    return T_SF;
+  };
+  const auto yaw = yaw_by_matches(pose_of(0.0, p), pose_of(0.03 * q / r, q), R_WS);
+  ASSERT_TRUE(yaw);
+  EXPECT_NEAR(yaw->angle, 0.03, 1e-12);
+  EXPECT_NEAR(yaw->sigma, std::sqrt(r), 1e-12);
+  EXPECT_FALSE(yaw_by_matches(pose_of(0.0, p), pose_of(0.0, p), R_WS));
+}
+
 TEST(RefineRig, IsCautiousWhereSurfacesAndLensErrAlike) {
-  EXPECT_LT(average_nees({}), 5.3);
+  RigRefinementOptions alike = independent();
+  alike.independent_matches = RigRefinementOptions{}.independent_matches;
+  EXPECT_LT(average_nees(alike), 5.3);
+  RigRefinementOptions warped = independent();
+  warped.mismatch_px = RigRefinementOptions{}.mismatch_px;
+  EXPECT_LT(average_nees(warped), 5.3);
 }
 
 TEST(RefineRig, FindsTheAgreeingMatchesAmongWrongOnes) {
