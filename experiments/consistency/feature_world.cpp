@@ -31,6 +31,11 @@ FeatureWorld::FeatureWorld(unsigned seed, const FeatureWorldOptions& options)
     omega_ = 0.02 * draw();
   }
   place_wearer();
+  if (options.wearer_error_time > 0.0) {
+    wearer_error_ << draw(), draw();
+  } else {
+    wearer_error_.setZero();
+  }
 }
 
 void FeatureWorld::fill_box() {
@@ -85,8 +90,13 @@ std::vector<FeatureWorld::Seen> FeatureWorld::observe(bool wearer_present) {
 
 FeatureWorld::Body FeatureWorld::measured_wearer() {
   Body T_SF{camera_.R.transpose() * wearer_.R, camera_.R.transpose() * (wearer_.p - camera_.p)};
-  T_SF.p += options_.wearer_sigma_p * draw();
-  T_SF.R = rodrigues(options_.wearer_sigma_theta * draw()) * T_SF.R;
+  const double kept =
+      options_.wearer_error_time > 0.0 ? std::exp(-options_.dt / options_.wearer_error_time) : 0.0;
+  const double fresh = std::sqrt(1.0 - kept * kept);
+  wearer_error_.head<3>() = kept * wearer_error_.head<3>() + fresh * draw();
+  wearer_error_.tail<3>() = kept * wearer_error_.tail<3>() + fresh * draw();
+  T_SF.p += options_.wearer_sigma_p * wearer_error_.head<3>();
+  T_SF.R = rodrigues(options_.wearer_sigma_theta * wearer_error_.tail<3>()) * T_SF.R;
   return T_SF;
 }
 

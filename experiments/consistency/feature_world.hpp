@@ -22,6 +22,7 @@ struct FeatureWorldOptions {
   double pixel_sigma = 1.0;                  ///< [px] both cameras
   double wearer_sigma_p = 0.02;              ///< [m] each axis of T_SF
   double wearer_sigma_theta = 0.005;         ///< [rad] each axis of T_SF
+  double wearer_error_time = 0.0;            ///< correlation time of both [s]; 0: new in every frame
   int points = 900;
   double half_size = 8.0;  ///< of the box [m]
   double length = 40.0;    ///< of the corridor [m]
@@ -50,7 +51,8 @@ class FeatureWorld {
   void step();
   /// All points in view of the SLAM camera, with pixel noise.
   std::vector<Seen> observe(bool wearer_present);
-  /// Pose of the free camera in the SLAM camera as the sensors tell it, with a fresh error each call.
+  /// Pose of the free camera in the SLAM camera as the sensors tell it. To be called once a step: each call
+  /// moves its error on.
   Body measured_wearer();
 
   const Body& camera() const { return camera_; }
@@ -76,6 +78,7 @@ class FeatureWorld {
   std::vector<Eigen::Vector3d> points_;
   Body camera_;
   Body wearer_;
+  Eigen::Matrix<double, 6, 1> wearer_error_;  ///< of T_SF, in standard deviations
   Eigen::Vector3d v_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d omega_ = Eigen::Vector3d::Zero();
 };

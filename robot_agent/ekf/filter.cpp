@@ -15,7 +15,7 @@ constexpr int kOmega = CameraState::kAngularVelocity;
 
 int state_capacity(const FilterOptions& options) {
   return CameraState::kDim + InverseDepthPoint::kDim * options.max_landmarks +
-         CameraState::kPoseDim * options.max_clones;
+         CameraState::kPoseDim * options.max_clones + (options.rig_error.is_state ? RigError::kDim : 0);
 }
 
 int row_capacity(const FilterOptions& options) {
@@ -81,6 +81,7 @@ void Filter::reset(const CameraState& x, const CameraState::Covariance& covarian
   CameraState unit = x;
   unit.q_WS.normalize();
   state_.append(unit.vector(), {}, covariance);
+  if (options_.rig_error.is_state) state_.append(RigError::Vector::Zero(), {}, RigError::Matrix::Identity());
 }
 
 void Filter::reset(const UncertainPose& T_WS, double sigma_v, double sigma_omega) {
@@ -98,8 +99,23 @@ void Filter::recentre_camera(const CameraState& x) {
   state_.x().head<CameraState::kDim>() = x.vector();
 }
 
+RigError::Vector Filter::rig_error() const {
+  if (!options_.rig_error.is_state) return RigError::Vector::Zero();
+  return state_.x().segment<RigError::kDim>(RigError::kOffset);
+}
+
+UncertainPose Filter::corrected_T_SF(const UncertainPose& sensed_T_SF) const {
+  if (!options_.rig_error.is_state) return sensed_T_SF;
+  const CorrectedRig rig = correct_rig(sensed_T_SF, options_.rig_error, rig_error());
+  const RigError::Matrix P_eta =
+      state_.covariance<RigError::kDim, RigError::kDim>(RigError::kOffset, RigError::kOffset);
+  return {rig.T_SF,
+          rig.by_eta * P_eta * rig.by_eta.transpose() + rig.noise_factor * rig.noise_factor.transpose()};
+}
+
 void Filter::predict(double dt) {
   if (!(dt > 0.0) || !std::isfinite(dt)) return;
+  if (options_.rig_error.is_state) predict_rig_error(dt);
   const MotionStep step = predict_motion(camera(), dt, options_.motion);
   const CameraState::Covariance F = step.F();
   const CameraState::Covariance P_cc = F * camera_covariance() * F.transpose() + step.process_noise;
@@ -120,6 +136,21 @@ void Filter::predict(double dt) {
   CameraState x = step.x;
   x.q_WS.normalize();  // rounding only: F keeps the length
   state_.x().head<CameraState::kDim>() = x.vector();
+}
+
+/// eta' = phi eta + noise: its rows and columns shrink by phi, its own block tends to the identity.
+void Filter::predict_rig_error(double dt) {
+  constexpr int kOffset = RigError::kOffset;
+  constexpr int kDim = RigError::kDim;
+  const double phi = RigError::decay(dt, options_.rig_error);
+  const Eigen::Index behind = state_.size() - kOffset - kDim;
+  auto P = state_.P_lower();
+  state_.x().segment<kDim>(kOffset) *= phi;
+  P.block(kOffset, 0, kDim, kOffset) *= phi;
+  P.block(kOffset + kDim, kOffset, behind, kDim) *= phi;
+  auto P_eta = P.block<kDim, kDim>(kOffset, kOffset);
+  P_eta *= phi * phi;
+  P_eta.diagonal().array() += 1.0 - phi * phi;
 }
 
 const Filter::Block* Filter::find(LandmarkId id) const {

@@ -15,6 +15,7 @@
 #include "robot_agent/ekf/measurement.hpp"
 #include "robot_agent/ekf/motion.hpp"
 #include "robot_agent/ekf/observation.hpp"
+#include "robot_agent/ekf/rig_error.hpp"
 #include "shared/geometry/camera_model.hpp"
 #include "shared/geometry/uncertain_pose.hpp"
 
@@ -40,6 +41,7 @@ struct FilterOptions {
   /// Points of one frame share the error of T_SF. True: as the correlation that it is; false: independent, as
   /// in the paper.
   bool correlated_wearer_pose = true;
+  RigErrorOptions rig_error;  ///< the same error as a state instead
   PointForm point_form = PointForm::kInverseDistance;
   int max_iterations = 1;           ///< Gauss-Newton steps of one update; 1 is the plain EKF
   double min_inverse_depth = 1e-3;  ///< [1/m] a landmark farther than this is not measured as a point
@@ -105,6 +107,10 @@ class Filter {
   /// at, for a prior so wide that its mean says nothing.
   void recentre_camera(const CameraState& x);
 
+  /// The free camera's pose as the state corrects what the sensors say, with what is left of its error.
+  /// Without that error in the state: what the sensors say.
+  UncertainPose corrected_T_SF(const UncertainPose& sensed_T_SF) const;
+
   // --- landmarks ------------------------------------------------------------------------------------------
   int landmark_count() const { return static_cast<int>(landmarks_.size()); }
   bool has_room() const;
@@ -125,7 +131,8 @@ class Filter {
   /// Pseudo-stereo (C section 2): one match with the free camera, 11 uncertain inputs.
   std::optional<LandmarkId> add_pseudo_stereo_landmark(const StereoMatch& match, const StereoRig& rig);
   /// The same for several matches of one frame. With correlated_wearer_pose the new landmarks share the error
-  /// of T_SF; added one by one they would not. One entry a match.
+  /// of T_SF; added one by one they would not. Where that error is a state they start from the corrected pose
+  /// and correct it: their epipolar errors know nothing of depth. One entry a match.
   std::vector<std::optional<LandmarkId>> add_pseudo_stereo_landmarks(std::span<const StereoMatch> matches,
                                                                      const StereoRig& rig);
   /// Delayed (C8), first pose taken as independent of the present state (the paper's way).
@@ -180,21 +187,32 @@ class Filter {
                              const Eigen::Ref<const Eigen::MatrixXd>& noise);
   UncertainPose pose_at(int offset) const;
 
-  /// The free camera in the present frame; `factor` times a standard normal is the error of T_SF, and
-  /// `guess` the step from its mean to where its pixels are linearised.
+  /// The free camera in the present frame; `guess` is the step from its mean to where its pixels are
+  /// linearised.
   struct Wearer {
     WearerObservation model;
-    Eigen::Matrix<double, 6, 6> factor;
+    CorrectedRig rig;
     Eigen::Matrix<double, 6, 1> guess = Eigen::Matrix<double, 6, 1>::Zero();
   };
-  static Wearer wearer_of(const StereoRig& rig);
+  /// How an update came out.
+  struct Fusion {
+    double nis = 0.0;
+    int iterations = 0;
+  };
 
   bool linearise(const Measurement& measurement, LinearisedMeasurement& out) const;
   bool linearise_wearer_pixel(const Measurement& measurement, LinearisedMeasurement& out) const;
   void collect(std::span<const Measurement> measurements, const StereoRig* wearer);
   void report_and_gate(std::span<const Measurement> measurements);
-  bool relinearise(std::span<const Measurement> measurements);
-  bool iterate(std::span<const Measurement> measurements);
+  bool relinearise(std::span<const Measurement> measurements, const StereoRig* wearer);
+  std::optional<Fusion> iterate(std::span<const Measurement> measurements, const StereoRig* wearer,
+                                int max_iterations);
+  void finish_update();
+  RigError::Vector rig_error() const;
+  void predict_rig_error(double dt);
+  void set_wearer(const StereoRig* rig);
+  std::vector<std::optional<LandmarkId>> add_with_rig_error(std::span<const StereoMatch> matches,
+                                                            const StereoRig& rig);
   void normalise_quaternion(int offset);
 
   CameraModel camera_model_;

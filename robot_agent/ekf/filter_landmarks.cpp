@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -113,6 +114,7 @@ std::optional<LandmarkId> Filter::add_pseudo_stereo_landmark(const StereoMatch& 
 
 std::vector<std::optional<LandmarkId>> Filter::add_pseudo_stereo_landmarks(
     std::span<const StereoMatch> matches, const StereoRig& rig) {
+  if (options_.rig_error.is_state) return add_with_rig_error(matches, rig);
   std::vector<std::optional<LandmarkId>> ids;
   std::vector<std::pair<int, StereoStart>> started;  // offset of the block
   const CameraState x = camera();
@@ -132,6 +134,38 @@ std::vector<std::optional<LandmarkId>> Filter::add_pseudo_stereo_landmarks(
     }
     started.emplace_back(offset, *start);
   }
+  return ids;
+}
+
+/// The ray comes from Cs, the depth is left free at the triangulated one, and then the pixels of Cf are
+/// measured, all together: a triangulation alone would have no use for their epipolar errors, which tell the
+/// error of T_SF.
+std::vector<std::optional<LandmarkId>> Filter::add_with_rig_error(std::span<const StereoMatch> matches,
+                                                                  const StereoRig& rig) {
+  constexpr double kFree = 10.0;  // sigma of the inverse depth in parts of itself: no information
+  constexpr int kIterations = 4;  // the matches may turn T_SF by several of its sigmas at once
+  const Pose T_SF = corrected_T_SF(rig.T_SF).T;
+  const CameraState x = camera();
+  std::vector<std::optional<LandmarkId>> ids;
+  std::vector<Measurement> measurements;
+  for (const StereoMatch& match : matches) {
+    ids.emplace_back();
+    const auto point = has_room() ? triangulate(match, rig.camera_S, rig.camera_F, T_SF) : std::nullopt;
+    auto anchored = point ? anchor(x, point->ray_S) : std::nullopt;
+    if (!anchored) continue;
+    anchored->y.rho = point->rho;
+    Eigen::Matrix<double, Point::kDim, 3> from_noise = Eigen::Matrix<double, Point::kDim, 3>::Zero();
+    from_noise.block<2, 2>(Point::kTheta, 0) =
+        rig.sigma_pixel_S * anchored->angles_ray_S * point->ray_pixel_S;
+    from_noise(Point::kRho, 2) = kFree * point->rho;
+    const Dependence on_camera{0, anchored->y_camera};
+    const Noise noise = from_noise * from_noise.transpose();
+    ids.back() = append_landmark(anchored->y.vector(), {&on_camera, 1}, noise);
+    measurements.push_back(Measurement::wearer_pixel(*ids.back(), match.pixel_F, rig.sigma_pixel_F));
+  }
+  if (measurements.empty()) return ids;
+  collect(measurements, &rig);
+  if (iterate(measurements, &rig, std::max(kIterations, options_.max_iterations))) finish_update();
   return ids;
 }
 

@@ -105,6 +105,7 @@ bool Filter::linearise(const Measurement& measurement, LinearisedMeasurement& ou
   out.R = measurement.R;
   out.shared_factor = measurement.shared_factor;
   out.shares_error = measurement.kind != MeasurementKind::kPixel;
+  out.sees_rig_error = false;
   if (measurement.kind == MeasurementKind::kPixel) {
     return linearise_with(BearingObservation{camera_model_}, state_, measurement, out);
   }
@@ -127,24 +128,26 @@ bool Filter::linearise_wearer_pixel(const Measurement& measurement, LinearisedMe
   if (!h) return false;
   out.rows = 2;
   out.innovation.head<2>() = measurement.z.head<2>() - *h + H_wearer * wearer_->guess;
-  out.shared_factor.topRows<2>() = H_wearer * wearer_->factor;
+  out.sees_rig_error = options_.rig_error.is_state;
+  out.H_rig = H_wearer * wearer_->rig.by_eta;
+  out.shared_factor.topRows<2>() = H_wearer * wearer_->rig.noise_factor;
   out.R.topLeftCorner<2, 2>() += out.shared_factor.topRows<2>() * out.shared_factor.topRows<2>().transpose();
   return out.innovation.head<2>().allFinite();
 }
 
-Filter::Wearer Filter::wearer_of(const StereoRig& rig) {
-  Wearer wearer{{rig.camera_F, rig.T_SF.T}, covariance_factor(rig.T_SF.covariance)};
-  if (rig.T_SF_guess) {
-    wearer.model.T_SF = *rig.T_SF_guess;
-    wearer.guess << rig.T_SF_guess->p - rig.T_SF.T.p,
-        quaternion_log(rig.T_SF_guess->q * rig.T_SF.T.q.conjugate());
-  }
-  return wearer;
+void Filter::set_wearer(const StereoRig* rig) {
+  wearer_.reset();
+  if (rig == nullptr) return;
+  const CorrectedRig corrected = correct_rig(rig->T_SF, options_.rig_error, rig_error());
+  wearer_ = Wearer{{rig->camera_F, corrected.T_SF}, corrected};
+  if (!rig->T_SF_guess || options_.rig_error.is_state) return;
+  wearer_->model.T_SF = *rig->T_SF_guess;
+  wearer_->guess << rig->T_SF_guess->p - corrected.T_SF.p,
+      quaternion_log(rig->T_SF_guess->q * corrected.T_SF.q.conjugate());
 }
 
 void Filter::collect(std::span<const Measurement> measurements, const StereoRig* wearer) {
-  wearer_.reset();
-  if (wearer != nullptr) wearer_ = wearer_of(*wearer);
+  set_wearer(wearer);
   innovation_.clear();
   LinearisedMeasurement linearised;
   for (std::size_t i = 0; i < measurements.size(); ++i) {
@@ -192,39 +195,46 @@ const UpdateReport& Filter::update(std::span<const Measurement> measurements, co
   collect(measurements, wearer);
   report_and_gate(measurements);
   if (innovation_.rows() == 0) return report_;
-  if (!iterate(measurements)) {
+  const auto fusion = iterate(measurements, wearer, options_.max_iterations);
+  if (!fusion) {
     for (MeasurementReport& report : report_.measurements) {
       if (report.outcome == Outcome::kFused) report.outcome = Outcome::kIllConditioned;
     }
     return report_;
   }
+  report_.nis = fusion->nis;
+  report_.iterations = fusion->iterations;
   report_.fused = static_cast<int>(innovation_.measurements().size());
   report_.rows = innovation_.rows();
+  finish_update();
+  return report_;
+}
+
+void Filter::finish_update() {
   covariance_update_.downdate(state_);
   normalise_quaternion(CameraState::kOrientation);
   for (const Block& clone : clones_)
     normalise_quaternion(clone.offset + CameraState::kOrientation);
-  return report_;
 }
 
 /// Gauss-Newton on the measurement (iterated EKF): x_i+1 = x_0 + K_i (z - h(x_i) - H_i (x_0 - x_i)). Leaves
-/// the corrected mean in the state and the last factorisation in covariance_update_. False: nothing has
-/// changed.
-bool Filter::iterate(std::span<const Measurement> measurements) {
+/// the corrected mean in the state and the last factorisation in covariance_update_. Nothing when the
+/// innovation covariance cannot be inverted: then nothing has changed.
+std::optional<Filter::Fusion> Filter::iterate(std::span<const Measurement> measurements,
+                                              const StereoRig* wearer, int max_iterations) {
   constexpr double kConverged = 1e-4;  // of the step's own size
-  if (!covariance_update_.factorise(innovation_)) return false;
-  report_.nis = covariance_update_.nis();
-  report_.iterations = 1;
+  if (!covariance_update_.factorise(innovation_)) return std::nullopt;
+  Fusion fusion{covariance_update_.nis(), 1};
   auto x_prior = x_prior_.head(state_.size());
   x_prior = state_.x();
   state_.x() += covariance_update_.correction();
-  while (report_.iterations < options_.max_iterations && relinearise(measurements)) {
+  while (fusion.iterations < max_iterations && relinearise(measurements, wearer)) {
     innovation_.compute(state_, options_.correlated_wearer_pose);
     if (!covariance_update_.factorise(innovation_)) {
       state_.x() = x_prior;
-      return false;
+      return std::nullopt;
     }
-    ++report_.iterations;
+    ++fusion.iterations;
     double change = 0.0;
     const auto correction = covariance_update_.correction();
     for (int i = 0; i < state_.size(); ++i) {
@@ -234,13 +244,14 @@ bool Filter::iterate(std::span<const Measurement> measurements) {
     }
     if (change <= kConverged * kConverged * correction.squaredNorm()) break;
   }
-  return true;
+  return fusion;
 }
 
 /// The fused measurements again at the present mean. False when one has no prediction there: then the last
 /// linearisation stands.
-bool Filter::relinearise(std::span<const Measurement> measurements) {
+bool Filter::relinearise(std::span<const Measurement> measurements, const StereoRig* wearer) {
   relinearised_.clear();
+  set_wearer(wearer);
   const auto x_prior = x_prior_.head(state_.size());
   for (const LinearisedMeasurement& old : innovation_.measurements()) {
     LinearisedMeasurement m = old;
@@ -251,6 +262,9 @@ bool Filter::relinearise(std::span<const Measurement> measurements) {
     for (int c = 0; c < m.dim; ++c) {
       const double landmark_step = x_prior(m.offset + c) - state_.x()(m.offset + c);
       m.innovation.head(m.rows) -= landmark_step * m.H_landmark.col(c).head(m.rows);
+    }
+    if (m.sees_rig_error) {
+      m.innovation.head<2>() -= m.H_rig * (x_prior.segment<RigError::kDim>(RigError::kOffset) - rig_error());
     }
     relinearised_.push_back(m);
   }

@@ -9,12 +9,26 @@ namespace {
 
 constexpr int kPose = CameraState::kPoseDim;
 
+/// product += P(:, o:o+Dim) H^T of one block, from the lower triangle of P.
+template <int Rows, int Dim>
+void add_touched_columns(const Eigen::Ref<const Eigen::MatrixXd>& P, Eigen::Index o,
+                         const Eigen::Matrix<double, Dim, Rows>& H_t, Eigen::Ref<Eigen::MatrixXd> product) {
+  Eigen::Matrix<double, Dim, Dim> P_oo = P.block<Dim, Dim>(o, o);
+  P_oo.template triangularView<Eigen::StrictlyUpper>() = P_oo.transpose();
+  product.middleRows<Dim>(o) += P_oo * H_t;
+  const Eigen::Index below = P.rows() - o - Dim;
+  product.bottomRows(below) += P.block(o + Dim, o, below, Dim).lazyProduct(H_t);
+  for (Eigen::Index j = 0; j < o; ++j) {  // above the diagonal block: P(j, o:o+Dim) = P(o:o+Dim, j)^T
+    const Eigen::Matrix<double, Dim, 1> p = P.template block<Dim, 1>(o, j);
+    product.row(j) += (p.transpose() * H_t);
+  }
+}
+
 /// P H^T of one measurement, in the columns [row, row + Rows), from the touched columns of P only.
 template <int Rows, int Dim>
 void multiply_touched_columns(const Eigen::Ref<const Eigen::MatrixXd>& P, const LinearisedMeasurement& m,
                               Eigen::Ref<Eigen::MatrixXd> product) {
   const Eigen::Index n = P.rows();
-  const Eigen::Index o = m.offset;
   const Eigen::Matrix<double, kPose, Rows> Hc_t = m.H_camera.topRows<Rows>().transpose();
   const Eigen::Matrix<double, Dim, Rows> Hl_t = m.H_landmark.topLeftCorner<Rows, Dim>().transpose();
 
@@ -23,15 +37,7 @@ void multiply_touched_columns(const Eigen::Ref<const Eigen::MatrixXd>& P, const 
   product.topRows<kPose>() = P_cc * Hc_t;
   product.bottomRows(n - kPose) = P.block(kPose, 0, n - kPose, kPose).lazyProduct(Hc_t);
 
-  Eigen::Matrix<double, Dim, Dim> P_ll = P.block<Dim, Dim>(o, o);
-  P_ll.template triangularView<Eigen::StrictlyUpper>() = P_ll.transpose();
-  product.middleRows<Dim>(o) += P_ll * Hl_t;
-  const Eigen::Index below = n - o - Dim;
-  product.bottomRows(below) += P.block(o + Dim, o, below, Dim).lazyProduct(Hl_t);
-  for (Eigen::Index j = 0; j < o; ++j) {  // above the diagonal block: P(j, o:o+Dim) = P(o:o+Dim, j)^T
-    const Eigen::Matrix<double, Dim, 1> p = P.template block<Dim, 1>(o, j);
-    product.row(j) += (p.transpose() * Hl_t);
-  }
+  add_touched_columns<Rows, Dim>(P, m.offset, Hl_t, product);
 }
 
 /// The rows of S of one measurement up to its diagonal block, from P H^T.
@@ -54,6 +60,9 @@ double rounding_variance(const GaussianState& state, const LinearisedMeasurement
     sigma += std::abs(m.H_camera(k, j)) * std::sqrt(P(j, j));
   for (int j = 0; j < m.dim; ++j) {
     sigma += std::abs(m.H_landmark(k, j)) * std::sqrt(P(m.offset + j, m.offset + j));
+  }
+  for (int j = 0; m.sees_rig_error && j < RigError::kDim; ++j) {
+    sigma += std::abs(m.H_rig(k, j)) * std::sqrt(P(RigError::kOffset + j, RigError::kOffset + j));
   }
   return kRounding * sigma * sigma;
 }
@@ -141,6 +150,10 @@ void JointInnovation::add_row_products(const GaussianState& state, const Lineari
   } else {
     multiply_touched_columns<3, 3>(state.P_lower(), m, columns);
   }
+  if (m.sees_rig_error) {
+    const Eigen::Matrix<double, RigError::kDim, 2> H_t = m.H_rig.transpose();
+    add_touched_columns<2, RigError::kDim>(state.P_lower(), RigError::kOffset, H_t, columns);
+  }
 }
 
 void JointInnovation::add_innovation_covariance(const LinearisedMeasurement& m) {
@@ -155,6 +168,8 @@ void JointInnovation::add_innovation_covariance(const LinearisedMeasurement& m) 
   } else {
     multiply_rows<3, 3>(P_Ht_, m, rows);
   }
+  if (m.sees_rig_error)
+    rows += m.H_rig.lazyProduct(P_Ht_.block(RigError::kOffset, 0, RigError::kDim, rows.cols()));
 }
 
 void JointInnovation::keep_only(std::span<const char> keep) {

@@ -7,10 +7,12 @@
 #include "robot_agent/ekf/camera_state.hpp"
 #include "robot_agent/ekf/gaussian_state.hpp"
 #include "robot_agent/ekf/inverse_depth_point.hpp"
+#include "robot_agent/ekf/rig_error.hpp"
 
 namespace cosight::ekf {
 
-/// One linearised measurement: its rows of H touch the camera's pose and one landmark's block, nothing else.
+/// One linearised measurement: its rows of H touch the camera's pose, one landmark's block and, of the free
+/// camera's pixels where that is a state, the error of T_SF.
 struct LinearisedMeasurement {
   int measurement = 0;  ///< index in the caller's list
   int row = 0;          ///< first row in g and S
@@ -20,6 +22,8 @@ struct LinearisedMeasurement {
   Eigen::Vector3d innovation = Eigen::Vector3d::Zero();  ///< z - h(x), first `rows` entries
   Eigen::Matrix<double, 3, CameraState::kPoseDim> H_camera;
   Eigen::Matrix<double, 3, InverseDepthPoint::kDim> H_landmark;  ///< first `dim` columns
+  bool sees_rig_error = false;
+  Eigen::Matrix<double, 2, RigError::kDim> H_rig = Eigen::Matrix<double, 2, RigError::kDim>::Zero();
   Eigen::Matrix3d R = Eigen::Matrix3d::Zero();
   bool shares_error = false;  ///< of T_SF, by shared_factor
   Eigen::Matrix<double, 3, 6> shared_factor = Eigen::Matrix<double, 3, 6>::Zero();
