@@ -20,7 +20,6 @@ class RunStatistics {
   std::uint64_t frames() const { return frames_; }
   double duration_s() const;
   double path_m() const { return path_m_; }
-  const DurationHistogram& frame_times() const { return frame_ms_; }
 
   /// Adds totals to the top level, and the sections `pseudo_stereo_outcomes`, `pseudo_stereo`, `search`.
   void report(YamlText& text) const;

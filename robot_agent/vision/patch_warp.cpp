@@ -48,11 +48,9 @@ std::optional<Eigen::Matrix2d> warp_of_plane(const View& reference, const View& 
 }  // namespace
 
 std::optional<Eigen::Matrix2d> predicted_warp(const View& reference, const View& present,
-                                              const Eigen::Vector3d& p_W, PatchNormal normal) {
+                                              const Eigen::Vector3d& p_W) {
   const Sight sight = sight_of(reference, present, p_W);
-  Eigen::Vector3d n_R = sight.from_R;
-  if (normal == PatchNormal::kTowardsMean) n_R = (n_R + sight.from_P).normalized();
-  return warp_of_plane(reference, present, sight, n_R);
+  return warp_of_plane(reference, present, sight, sight.from_R);
 }
 
 std::optional<Eigen::Matrix2d> predicted_warp(const View& reference, const View& present,

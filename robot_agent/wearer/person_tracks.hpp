@@ -25,7 +25,6 @@ struct PersonTrack {
   int sightings = 0;
 
   Eigen::Vector2d p_O() const { return x.head<2>(); }
-  Eigen::Vector2d v_O() const { return x.tail<2>(); }
   Eigen::Matrix2d position_covariance() const { return P.topLeftCorner<2, 2>(); }
   double worst_sigma() const;  ///< of the position [m]
   bool has_moved() const;      ///< no furniture

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "robot_agent/wearer/body_sighting.hpp"
 #include "robot_agent/wearer/planar_scan.hpp"
@@ -129,18 +128,6 @@ void WearerTracker::set_robot_orientation(Stamp stamp, const Eigen::Quaterniond&
   const double yaw_WB = yaw_of(q_WS * options_.head.T_BS.q.conjugate());
   const double yaw_OB = yaw_of(odometry_.T_OB(stamp).q);
   worn_camera_.set_map_yaw(stamp, {yaw_OB - yaw_WB, yaw_sigma});
-}
-
-std::optional<Walk> WearerTracker::walk() const {
-  const PersonTrack* track = wearer();
-  if (track == nullptr || !stamp_) return std::nullopt;
-  const auto yaw_OW = worn_camera_.yaw_OW(*stamp_);
-  const double speed = track->v_O().norm();
-  if (!yaw_OW || speed < 1e-3) return std::nullopt;
-  const double direction_O = std::atan2(track->v_O().y(), track->v_O().x());
-  const double sigma = std::sqrt(track->P.bottomRightCorner<2, 2>().trace() / 2.0) / speed;
-  return Walk{std::remainder(direction_O - yaw_OW->angle, 2.0 * std::numbers::pi),
-              std::hypot(sigma, yaw_OW->sigma), speed};
 }
 
 }  // namespace cosight::wearer

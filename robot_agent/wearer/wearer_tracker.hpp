@@ -24,13 +24,6 @@ struct WearerCounters {
   std::uint64_t losses = 0;     ///< times that the wearer had to be looked for anew
 };
 
-/// How the wearer walks, in the robot's map W.
-struct Walk {
-  double direction_W = 0.0;  ///< [rad] from W's x axis
-  double sigma = 0.0;        ///< [rad]
-  double speed = 0.0;        ///< [m/s]
-};
-
 /// Where the wearer is (C sections 2 and 4): laser scans -> what is no furniture -> legs -> people -> the one
 /// that is the wearer -> head -> free camera. A pure function of the order of the calls: no clock, no thread.
 ///
@@ -55,9 +48,6 @@ class WearerTracker {
 
   /// From the AHRS's north to W's x axis, see YawOffset.
   void set_yaw_offset(const UncertainAngle& yaw_WA) { worn_camera_.set_yaw_offset(yaw_WA); }
-
-  /// While the wearer is known and `set_robot_orientation` was called lately.
-  std::optional<Walk> walk() const;
 
   /// The wearer's body in O; null while nobody is taken for the wearer.
   const PersonTrack* wearer() const { return wearer_ ? people_.find(*wearer_) : nullptr; }

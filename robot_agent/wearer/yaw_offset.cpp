@@ -11,11 +11,6 @@ double wrapped(double angle) {
   return std::remainder(angle, 2.0 * std::numbers::pi);
 }
 
-double yaw_of(const Eigen::Quaterniond& q) {
-  const Eigen::Vector3d forward = q * Eigen::Vector3d::UnitX();
-  return std::atan2(forward.y(), forward.x());
-}
-
 /// Deviation of an angle of which nothing is known: uniform on the circle.
 const double kUnknown = std::numbers::pi / std::sqrt(3.0);
 
@@ -57,20 +52,6 @@ void YawOffset::fuse(YawReport& report, double R) {
   angle_ = wrapped(angle_ + K * report.innovation);
   variance_ *= 1.0 - K;
   report.outcome = YawReport::Outcome::kFused;
-}
-
-YawReport YawOffset::walking(Stamp stamp, double direction_W, double speed, const Eigen::Quaterniond& q_AH) {
-  const bool usable = std::isfinite(direction_W) && q_AH.coeffs().allFinite() && speed >= options_.walk_speed;
-  const bool again = !last_walk_ || to_seconds(stamp - *last_walk_) >= options_.walk_time;
-  if (!usable || !again) return {};
-  advance(stamp);
-  if (variance_ < options_.coarse_above * options_.coarse_above) return {};
-  last_walk_ = stamp;
-  const double R = options_.walk_sigma * options_.walk_sigma;
-  YawReport report = innovation(direction_W - yaw_of(q_AH), R);
-  constexpr double kDegreesOfFreedom = 3.0;
-  fuse(report, R * (kDegreesOfFreedom + report.nis) / (kDegreesOfFreedom + 1.0));
-  return report;
 }
 
 YawReport YawOffset::sighting(Stamp stamp, const Eigen::Quaterniond& q_WF, const Eigen::Matrix3d& covariance,

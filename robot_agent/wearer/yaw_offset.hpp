@@ -15,20 +15,16 @@ struct YawOffsetOptions {
   double ahrs_sigma = 0.005;       ///< of one AHRS yaw, what changes within seconds [rad]
   double gate = 10.8;              ///< squared innovation over its variance: 99.9 % of one dof
   int gated_until_jump = 8;        ///< so many gated ones in a row: the offset has jumped
-  double walk_sigma = 1.0;         ///< how far people look away from where they walk [rad]
-  double walk_time = 2.0;          ///< one look lasts so long [s]
-  double walk_speed = 0.4;         ///< slower ones look anywhere [m/s]
-  double coarse_above = 0.2;       ///< the walk is listened to while the deviation is larger [rad]
 };
 
 /// What one piece of evidence did.
 struct YawReport {
-  enum class Outcome { kFused, kGated, kNotNeeded };
+  enum class Outcome { kFused, kGated, kRefused };
 
   double innovation = 0.0;  ///< [rad]
   double sigma = 0.0;       ///< of the innovation [rad]
   double nis = 0.0;
-  Outcome outcome = Outcome::kNotNeeded;
+  Outcome outcome = Outcome::kRefused;  ///< was no number
 };
 
 /// How the AHRS's own world A (x to its north) lies in the robot's map W, both level: R_WA = R_z(yaw_WA). A
@@ -37,14 +33,8 @@ class YawOffset {
  public:
   explicit YawOffset(const YawOffsetOptions& options = {});
 
-  /// Coarse: people look, on average, where they walk. `q_AH`: the head as the AHRS has it. Seldom taken,
-  /// with little weight, and with less the further off it is (Student's t with three degrees of freedom):
-  ///
-  ///   z = direction_W - yaw(q_AH)
-  YawReport walking(Stamp stamp, double direction_W, double speed, const Eigen::Quaterniond& q_AH);
-
-  /// Fine: an orientation of the worn camera from its image, with the covariance of its error in the axes of
-  /// W [rad^2], and the AHRS's at the same time:
+  /// An orientation of the worn camera from its image, with the covariance of its error in the axes of W
+  /// [rad^2], and the AHRS's at the same time:
   ///
   ///   z = twist about z of q_WF q_AF^-1
   YawReport sighting(Stamp stamp, const Eigen::Quaterniond& q_WF, const Eigen::Matrix3d& covariance,
@@ -66,7 +56,6 @@ class YawOffset {
   double angle_ = 0.0;
   double variance_ = 0.0;
   std::optional<Stamp> stamp_;
-  std::optional<Stamp> last_walk_;
   int gated_in_a_row_ = 0;
 };
 

@@ -20,7 +20,6 @@ std::vector<FrameRecord> read_frame_log(const std::filesystem::path& path) {
   for (std::size_t row = 0; row < table.rows(); ++row) {
     FrameRecord record;
     record.stamp = table.stamp(row, "stamp_ns");
-    record.overlap = number_or_zero(table, row, "overlap") > 0.0;
     record.pseudo_stereo =
         number_or_zero(table, row, "fused") + number_or_zero(table, row, "initialised") > 0.0;
     record.lost = table.has("tracking") && table.text(row, "tracking") == "lost";

@@ -89,32 +89,6 @@ TEST(YawOffset, IsCaughtWhenItTrustsTheSightingsTooMuch) {
   EXPECT_GT(consistency.mean_nees, 1.5);
 }
 
-TEST(YawOffset, IsFoundFromTheWalkAloneToSomeDegreesAndThenLeftAlone) {
-  for (unsigned seed = 1; seed <= 20; ++seed) {
-    Sky sky(seed, 2.9);
-    YawOffset offset;
-    for (int step = 0; step < 400; ++step) {
-      sky.pass(0.25, 0.0);
-      offset.walking(sky.stamp(), sky.direction_W, 1.2, sky.q_AH());
-    }
-    EXPECT_LT(std::abs(difference(offset.yaw_WA().angle, sky.yaw_WA)), 0.45) << seed;
-    EXPECT_LT(offset.yaw_WA().sigma, 0.3) << seed;
-    EXPECT_GT(offset.yaw_WA().sigma, 0.1) << seed;
-  }
-}
-
-TEST(YawOffset, ListensToTheWalkOnlyWhileItKnowsLittle) {
-  YawOffset offset({.prior = {0.0, 0.05}});
-  const YawReport report = offset.walking(from_seconds(1.0), 1.0, 1.2, turned(0.0));
-  EXPECT_EQ(report.outcome, YawReport::Outcome::kNotNeeded);
-  EXPECT_EQ(offset.yaw_WA().angle, 0.0);
-}
-
-TEST(YawOffset, DoesNotListenToSomebodyWhoStands) {
-  YawOffset offset;
-  EXPECT_EQ(offset.walking(from_seconds(1.0), 1.0, 0.1, turned(0.0)).outcome, YawReport::Outcome::kNotNeeded);
-}
-
 TEST(YawOffset, ConvergesAcrossTheHalfTurn) {
   YawOffset offset({.prior = {3.1, 0.3}});
   const Eigen::Matrix3d covariance = 1e-4 * Eigen::Matrix3d::Identity();
@@ -155,7 +129,6 @@ TEST(YawOffset, IgnoresWhatIsNoNumber) {
   const double nan = std::nan("");
   offset.sighting(from_seconds(1.0), turned(nan), Eigen::Matrix3d::Identity(), turned(0.0));
   offset.sighting(from_seconds(1.0), turned(0.0), nan * Eigen::Matrix3d::Identity(), turned(0.0));
-  offset.walking(from_seconds(1.0), nan, 1.0, turned(0.0));
   EXPECT_EQ(offset.yaw_WA().angle, 0.2);
   EXPECT_NEAR(offset.yaw_WA().sigma, 0.3, 1e-12);
 }

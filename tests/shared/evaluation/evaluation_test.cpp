@@ -68,12 +68,11 @@ TEST(Evaluation, CountsFramesOnlyWhereThereAreAny) {
   std::vector<FrameRecord> frames(4);
   for (std::size_t i = 0; i < frames.size(); ++i) {
     frames[i].stamp = truth[i].stamp;
-    frames[i].overlap = i == 0;
     frames[i].pseudo_stereo = i < 2;
     frames[i].total_ms = static_cast<double>(i);
   }
   const Evaluation evaluation = evaluate(truth, truth, {}, frames);
-  EXPECT_NEAR(evaluation.metric("overlap_ratio").value(), 0.5, 1e-9);  // with measurements, not predicted
+  EXPECT_NEAR(evaluation.metric("overlap_ratio").value(), 0.5, 1e-9);
   EXPECT_NEAR(evaluation.metric("pseudo_stereo_share").value(), 0.5, 1e-9);
   EXPECT_NEAR(evaluation.metric("frame_ms_median").value(), 1.5, 1e-9);
   EXPECT_FALSE(evaluation.metric("tau").has_value());

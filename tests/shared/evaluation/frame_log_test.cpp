@@ -19,12 +19,10 @@ TEST(FrameLog, IsReadByTheNamesOfItsColumns) {
   const std::vector<FrameRecord> frames = read_frame_log(file.path());
   ASSERT_EQ(frames.size(), 2U);
   EXPECT_EQ(frames[0].stamp, 100);
-  EXPECT_TRUE(frames[0].overlap);
   EXPECT_TRUE(frames[0].pseudo_stereo);
   EXPECT_FALSE(frames[0].lost);
   EXPECT_EQ(frames[0].landmarks, 31.0);
   EXPECT_EQ(frames[0].total_ms, 4.5);
-  EXPECT_FALSE(frames[1].overlap);
   EXPECT_FALSE(frames[1].pseudo_stereo);
   EXPECT_TRUE(frames[1].lost);
 }
@@ -41,9 +39,9 @@ TEST(FrameLog, RefusesAShortLineInTheMiddle) {
 }
 
 TEST(FrameLog, RefusesNaNAndMissingStamps) {
-  const TextFile nan("frames_nan", "stamp_ns,overlap\n100,nan\n");
+  const TextFile nan("frames_nan", "stamp_ns,landmarks\n100,nan\n");
   EXPECT_THAT([&] { read_frame_log(nan.path()); },
-              ThrowsMessage<EvaluationError>(HasSubstr(":2: overlap: 'nan'")));
+              ThrowsMessage<EvaluationError>(HasSubstr(":2: landmarks: 'nan'")));
   const TextFile none("frames_none", "time,overlap\n100,1\n");
   EXPECT_THAT([&] { read_frame_log(none.path()); },
               ThrowsMessage<EvaluationError>(HasSubstr("no column 'stamp_ns'")));
