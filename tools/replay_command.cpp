@@ -1,5 +1,7 @@
 #include "tools/replay_command.hpp"
 
+#include <sys/prctl.h>
+
 #include <atomic>
 #include <filesystem>
 #include <iomanip>
@@ -56,6 +58,8 @@ void report(const ReplaySummary& summary) {
     std::cerr << "cosight replay: not sent: " << sentence << '\n';
   for (const std::string& topic : summary.without_reader)
     std::cerr << "cosight replay: nobody listens on " << topic << '\n';
+  if (summary.damaged > 0)
+    std::cerr << "cosight replay: " << summary.damaged << " damaged parts of the recording left out\n";
   const auto milliseconds = [](Stamp late) { return 1e3 * to_seconds(late); };
   std::cout << std::fixed << std::setprecision(3) << "sent " << summary.sent << " messages; late by "
             << milliseconds(summary.late_median) << " ms (median), " << milliseconds(summary.late_p99)
@@ -70,6 +74,7 @@ void run(ReplayArguments arguments) {
   const recording::McapReader reader(arguments.file);
   const transport::Participant participant(arguments.dds);
   SteadyClock clock;
+  ::prctl(PR_SET_TIMERSLACK, 1UL);  // [ns]; 50 us otherwise, by which every message would be later
   recording::Replayer replayer(participant, reader, arguments.replay, clock);
   ReplayControl control;
   StatusLine line;
@@ -82,7 +87,7 @@ void run(ReplayArguments arguments) {
   }
   line.clear();
   report(summary);
-  if (summary.failed > 0 || !summary.not_sent.empty())
+  if (summary.failed + summary.damaged > 0 || !summary.not_sent.empty())
     throw CLI::RuntimeError(static_cast<int>(ExitCode::kDataLost));
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "shared/recording/lateness.hpp"
+#include "shared/recording/message_prefetch.hpp"
 #include "shared/recording/recorded_topic.hpp"
 #include "shared/transport/blind_topic.hpp"
 #include "shared/transport/topics.hpp"
@@ -130,19 +131,21 @@ class Replayer::Impl {
     filter.wants = [this](const Channel& channel) { return outputs_.contains(channel.id); };
     filter.start = start_;
     filter.end = end_;
-    MessageCursor cursor = reader_.messages(filter);
+    MessagePrefetch ahead(reader_.messages(filter));
+    auto message = ahead.next();
     began_ = clock_.now();
-    while (const auto message = cursor.next()) {
+    for (; message; message = ahead.next()) {
       const std::optional<Stamp> due = wait_until_due(*message, stop, control, progress);
       if (stop) return;
       if (due && options_.rate > 0.0) lateness_.add(clock_.now() - *due);
       send(message->channel_id, message->payload, message->publish_time);
       tell(*message, control, progress);
     }
+    summary_.damaged = ahead.damaged();
   }
 
   /// When it was due, or nothing when a step sent it.
-  std::optional<Stamp> wait_until_due(const Message& message, const std::atomic<bool>& stop,
+  std::optional<Stamp> wait_until_due(const PrefetchedMessage& message, const std::atomic<bool>& stop,
                                       ReplayControl& control, const Progress& progress) {
     while (!stop) {
       const Stamp now = clock_.now();
@@ -164,7 +167,7 @@ class Replayer::Impl {
     return std::nullopt;
   }
 
-  Stamp offset_of(const Message& message) const {
+  Stamp offset_of(const PrefetchedMessage& message) const {
     if (options_.rate <= 0.0) return 0;
     return static_cast<Stamp>(static_cast<double>(message.log_time - start_) / options_.rate);
   }
@@ -174,7 +177,7 @@ class Replayer::Impl {
     ++(taken ? summary_.sent : summary_.failed);
   }
 
-  void tell(const Message& message, const ReplayControl& control, const Progress& progress) {
+  void tell(const PrefetchedMessage& message, const ReplayControl& control, const Progress& progress) {
     const Stamp now = clock_.now();
     if (!progress || now - told_ < kTellProgress) return;
     told_ = now;

@@ -40,7 +40,8 @@ struct ReplayerStatus {
 
 struct ReplaySummary {
   std::uint64_t sent = 0;
-  std::uint64_t failed = 0;  ///< not taken by the middleware
+  std::uint64_t failed = 0;   ///< not taken by the middleware
+  std::uint64_t damaged = 0;  ///< chunks of the file that could not be read
   Stamp late_median = 0, late_p99 = 0, late_worst = 0;
   std::vector<std::string> without_reader;  ///< expected, or everything when nobody came
   std::vector<std::string> not_sent;        ///< topics that could not be, one sentence each
