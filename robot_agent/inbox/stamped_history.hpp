@@ -28,7 +28,8 @@ class StampedHistory {
     if (samples_.size() > capacity_) samples_.pop_front();
   }
 
-  /// The last sample at or before, and the first at or after a stamp; null where there is none.
+  /// The last sample at or before, and the first at or after a stamp; null where there is none, or where the
+  /// stream passed before it came to one: whether that one had arrived yet must not matter.
   struct Neighbours {
     const T* before = nullptr;
     const T* after = nullptr;
@@ -42,6 +43,7 @@ class StampedHistory {
     } else if (after != samples_.begin()) {
       result.before = &*std::prev(after);
     }
+    if (result.after != nullptr && has_passed_between(stamp, result.after->stamp)) result.after = nullptr;
     return result;
   }
 
@@ -50,11 +52,16 @@ class StampedHistory {
   bool reaches(Stamp stamp) const { return last_arrived_ && *last_arrived_ >= stamp; }
 
   /// The stream has come so far without a sample.
-  void pass(Stamp stamp) { last_arrived_ = std::max(stamp, last_arrived_.value_or(stamp)); }
+  void pass(Stamp stamp) {
+    last_arrived_ = std::max(stamp, last_arrived_.value_or(stamp));
+    passed_.push_back(stamp);
+    if (passed_.size() > capacity_) passed_.pop_front();
+  }
 
   std::size_t size() const { return samples_.size(); }
   void clear() {
     samples_.clear();
+    passed_.clear();
     last_arrived_.reset();
   }
 
@@ -64,8 +71,13 @@ class StampedHistory {
                             [](const T& sample, Stamp s) { return sample.stamp < s; });
   }
 
+  bool has_passed_between(Stamp from, Stamp to) const {
+    return std::any_of(passed_.begin(), passed_.end(), [&](Stamp p) { return from <= p && p < to; });
+  }
+
   std::size_t capacity_;
   std::deque<T> samples_;
+  std::deque<Stamp> passed_;  ///< without a sample
   std::optional<Stamp> last_arrived_;
 };
 

@@ -42,6 +42,16 @@ TEST(InterpolatedPose, LiesOnTheWayOfAConstantTurn) {
   EXPECT_EQ(pose->stamp, ms(10));
 }
 
+TEST(InterpolatedPose, WhatCameAfterTheStreamHadPassedMakesNoDifference) {
+  StampedHistory<WearerPoseSample> poses(10);
+  poses.insert(pose_at(ms(0), {1, 0, 0}, {0, 0, 0}, 0.01));
+  poses.pass(ms(40));
+  EXPECT_EQ(interpolate_pose(poses, ms(30), {}).value().T_SF.T.p.x(), 1.0);
+  poses.insert(pose_at(ms(80), {2, 0, 0}, {0, 0, 0}, 0.01));
+  EXPECT_EQ(interpolate_pose(poses, ms(30), {}).value().T_SF.T.p.x(), 1.0);
+  EXPECT_EQ(interpolate_pose(poses, ms(70), {}).value().T_SF.T.p.x(), 2.0);
+}
+
 TEST(InterpolatedPose, CovarianceBoundsEveryCorrelationOfTheTwoErrors) {
   const double variance_a = 0.01;
   const double variance_b = 0.03;
