@@ -1,16 +1,23 @@
 // What scripts/experiments/recording measures of the files themselves:
 //
-//   recording_probe truncate FILE COUNT SEED   cuts it at COUNT random bytes; prints how often a whole chunk
-//   was missing recording_probe write FILE MEGABYTES       writes frames of 345 kB without compression;
-//   prints MB/s, on the disk
+//   recording_probe truncate FILE COUNT SEED
+//     cuts it at COUNT random bytes; prints how often a whole chunk was missing
+//   recording_probe write FILE MEGABYTES
+//     writes frames of 345 kB without compression; prints MB/s, on the disk
+//   recording_probe lost WITNESS {KILLED TIME_NS}...
+//     recorders that were killed at those times, and one beside them that was not: prints for how long, at
+//     most, a killed one's file holds nothing of what the other received before the kill [ms], and how many
+//     files hold nothing at all
 
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <exception>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <random>
+#include <span>
 #include <string>
 
 #include "shared/recording/file_bytes.hpp"
@@ -87,12 +94,54 @@ int write_frames(const std::string& path, double megabytes) {
   return EXIT_SUCCESS;
 }
 
+/// The last message of each topic, by the sequence numbers of its one writer.
+std::map<std::string, std::uint32_t> last_messages(const McapReader& reader) {
+  std::map<std::string, std::uint32_t> last;
+  MessageCursor cursor = reader.messages({}, MessageOrder::kFile);
+  while (const auto message = cursor.next()) {
+    std::uint32_t& sequence = last[reader.contents().channels.at(message->channel_id).topic];
+    sequence = std::max(sequence, message->sequence);
+  }
+  return last;
+}
+
+/// From the first message that a killed recorder should have to the kill [ns].
+cosight::Stamp lost_before(cosight::Stamp kill, const std::map<std::string, std::uint32_t>& last,
+                           const McapReader& witness) {
+  MessageFilter filter;
+  filter.wants = [&last](const Channel& channel) { return last.contains(channel.topic); };
+  filter.start = kill - 10 * cosight::kNanosecondsPerSecond;
+  filter.end = kill;
+  MessageCursor cursor = witness.messages(filter, MessageOrder::kLogTime);
+  while (const auto message = cursor.next()) {
+    const Channel& channel = witness.contents().channels.at(message->channel_id);
+    if (message->sequence > last.at(channel.topic)) return kill - message->log_time;
+  }
+  return 0;
+}
+
+int compare_with_witness(const std::string& path, std::span<char*> killed) {
+  const McapReader witness{std::filesystem::path(path)};
+  cosight::Stamp worst = 0;
+  int empty = 0;
+  for (std::size_t i = 0; i + 1 < killed.size(); i += 2) {
+    const auto last = last_messages(McapReader{std::filesystem::path(killed[i])});
+    if (last.empty()) ++empty;
+    worst = std::max(worst, lost_before(std::atoll(killed[i + 1]), last, witness));
+  }
+  std::cout << worst / 1'000'000 << ' ' << empty << '\n';
+  return EXIT_SUCCESS;
+}
+
 int run(int argc, char** argv) {
   const std::string command = argc > 1 ? argv[1] : "";
   if (command == "truncate" && argc == 5)
     return truncate_at_random(argv[2], std::atoi(argv[3]), static_cast<unsigned>(std::atoi(argv[4])));
   if (command == "write" && argc == 4) return write_frames(argv[2], std::atof(argv[3]));
-  std::cerr << "recording_probe: truncate FILE COUNT SEED, or write FILE MEGABYTES\n";
+  if (command == "lost" && argc > 4)
+    return compare_with_witness(argv[2], std::span(argv, static_cast<std::size_t>(argc)).subspan(3));
+  std::cerr << "recording_probe: truncate FILE COUNT SEED, write FILE MEGABYTES or lost WITNESS {KILLED "
+               "TIME_NS}...\n";
   return 2;
 }
 
