@@ -16,14 +16,18 @@ MessagePrefetch::~MessagePrefetch() {
   thread_.join();
 }
 
+/// Both threads meet once for many messages, so that neither waits for the other to be scheduled.
 std::optional<PrefetchedMessage> MessagePrefetch::next() {
-  std::unique_lock lock(mutex_);
-  changed_.wait(lock, [this] { return !messages_.empty() || is_at_end_; });
-  if (messages_.empty()) return std::nullopt;
-  PrefetchedMessage message = std::move(messages_.front());
-  messages_.pop_front();
-  bytes_ -= message.payload.size();
-  changed_.notify_all();
+  if (taken_.empty()) {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return !messages_.empty() || is_at_end_; });
+    taken_.swap(messages_);
+    bytes_ = 0;
+    changed_.notify_all();
+  }
+  if (taken_.empty()) return std::nullopt;
+  PrefetchedMessage message = std::move(taken_.front());
+  taken_.pop_front();
   return message;
 }
 
@@ -55,7 +59,7 @@ bool MessagePrefetch::push(PrefetchedMessage&& message) {
   if (is_abandoned_) return false;
   bytes_ += message.payload.size();
   messages_.push_back(std::move(message));
-  changed_.notify_all();
+  if (messages_.size() == 1) changed_.notify_all();
   return true;
 }
 

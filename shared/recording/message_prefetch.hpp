@@ -24,7 +24,7 @@ struct PrefetchedMessage {
 /// the disk nor for a chunk to be decompressed.
 class MessagePrefetch {
  public:
-  static constexpr std::size_t kAhead = std::size_t{16} << 20;  ///< [bytes]
+  static constexpr std::size_t kAhead = std::size_t{8} << 20;  ///< [bytes], and as much on the taking side
 
   explicit MessagePrefetch(MessageCursor cursor, std::size_t max_bytes = kAhead);
   ~MessagePrefetch();
@@ -46,11 +46,12 @@ class MessagePrefetch {
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<PrefetchedMessage> messages_;
-  std::size_t bytes_ = 0;
+  std::size_t bytes_ = 0;  ///< of `messages_`
   std::uint64_t damaged_ = 0;
   bool is_at_end_ = false;
   bool is_abandoned_ = false;
-  std::thread thread_;  ///< last: uses all of the above
+  std::deque<PrefetchedMessage> taken_;  ///< by the side that calls `next`, all at once
+  std::thread thread_;                   ///< last: uses all of the above
 };
 
 }  // namespace cosight::recording
