@@ -37,7 +37,8 @@ void OwnSensors::play() {
     if (publisher_ && is_first) publisher_->publish(camera_, stamp_of(*sample));
     is_first = false;
     if (publisher_) publisher_->publish(*sample);
-    intake_.push(std::move(*sample));
+    // As a recording of the topics would give it back, to the last bit.
+    intake_.push(publisher_ ? transport::as_received(std::move(*sample)) : std::move(*sample));
     constexpr Stamp kSlice = kNanosecondsPerSecond / 10;
     while (as_fast_as_possible_ && !stop_ && !inbox_.wait_for_room(kSlice)) {
     }

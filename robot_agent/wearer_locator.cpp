@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 namespace cosight::robot {
 namespace {
 
-/// Odometry and orientations that are later than this, by the stamps, are not waited for.
+/// Odometry, orientations and other lasers that are later than this, by the stamps, are not waited for.
 constexpr Stamp kPatience = kNanosecondsPerSecond / 10;
 constexpr std::size_t kMostHeadings = 100;  ///< that wait for a scan
 
@@ -36,9 +37,12 @@ void WearerLocator::add(const AhrsSample& sample) {
 void WearerLocator::add(LaserScanSample scan) {
   const std::lock_guard lock(mutex_);
   newest_scan_ = std::max(newest_scan_, scan.stamp);
-  const auto place =
-      std::upper_bound(waiting_.begin(), waiting_.end(), scan.stamp,
-                       [](Stamp stamp, const LaserScanSample& other) { return stamp < other.stamp; });
+  Stamp& laser_stamp = laser_stamps_[scan.laser];
+  laser_stamp = std::max(laser_stamp, scan.stamp);
+  const auto place = std::upper_bound(waiting_.begin(), waiting_.end(), scan,
+                                      [](const LaserScanSample& a, const LaserScanSample& b) {
+                                        return std::tie(a.stamp, a.laser) < std::tie(b.stamp, b.laser);
+                                      });
   waiting_.insert(place, std::move(scan));
   use_ready_scans();
 }
@@ -59,7 +63,7 @@ void WearerLocator::add(const FrameEstimate& estimate) {
 void WearerLocator::finish() {
   const std::lock_guard lock(mutex_);
   while (!waiting_.empty())
-    use_first();
+    use_first_stamp();
 }
 
 wearer::WearerCounters WearerLocator::counters() const {
@@ -74,24 +78,31 @@ std::uint64_t WearerLocator::estimates_late() const {
 
 void WearerLocator::use_ready_scans() {
   while (!waiting_.empty() && is_ready(waiting_.front()))
-    use_first();
+    use_first_stamp();
 }
 
-/// An AHRS that is silent longer than the patience is not waited for at all.
+/// What is silent longer than the patience is not waited for at all.
 bool WearerLocator::is_ready(const LaserScanSample& scan) const {
-  const bool too_long = newest_scan_ - scan.stamp > kPatience;
+  if (newest_scan_ - scan.stamp > kPatience) return true;
+  const auto has_come_or_is_silent = [&scan](Stamp newest) {
+    return newest >= scan.stamp || scan.stamp - newest > kPatience;
+  };
   const bool motion_known = odometry_stamp_ && *odometry_stamp_ >= scan.stamp;
-  const bool head_known = !ahrs_stamp_ || *ahrs_stamp_ >= scan.stamp || scan.stamp - *ahrs_stamp_ > kPatience;
-  return too_long || (motion_known && head_known);
+  return motion_known && (!ahrs_stamp_ || has_come_or_is_silent(*ahrs_stamp_)) &&
+         std::all_of(laser_stamps_.begin(), laser_stamps_.end(),
+                     [&](const auto& laser) { return has_come_or_is_silent(laser.second); });
 }
 
-void WearerLocator::use_first() {
-  const LaserScanSample scan = std::move(waiting_.front());
-  waiting_.pop_front();
-  for (; !headings_.empty() && headings_.front().stamp + kEstimateDelay <= scan.stamp; headings_.pop_front())
+/// Each later scan of a stamp knows what the ones before it said.
+void WearerLocator::use_first_stamp() {
+  const Stamp stamp = waiting_.front().stamp;
+  for (; !headings_.empty() && headings_.front().stamp + kEstimateDelay <= stamp; headings_.pop_front())
     use(headings_.front());
-  used_scan_ = scan.stamp;
-  found_(scan.stamp, tracker_.add_scan(scan));
+  used_scan_ = stamp;
+  std::optional<WearerPoseSample> pose;
+  for (; !waiting_.empty() && waiting_.front().stamp == stamp; waiting_.pop_front())
+    pose = tracker_.add_scan(waiting_.front());
+  found_(stamp, pose);
 }
 
 void WearerLocator::use(const Heading& heading) {

@@ -2,8 +2,10 @@
 
 #include <deque>
 #include <functional>
+#include <map>
 #include <mutex>
 #include <optional>
+#include <string>
 
 #include "robot_agent/frame_estimate.hpp"
 #include "robot_agent/wearer/wearer_tracker.hpp"
@@ -12,12 +14,13 @@
 namespace cosight::robot {
 
 /// The wearer's tracker for samples that come from several threads. What a scan says depends on stamps alone,
-/// as long as nothing is later than it is waited for: a scan is used once the odometry and the AHRS have come
-/// as far, and what slam made of a frame is used for scans from a fixed time after that frame on.
+/// as long as nothing is later than it is waited for: a scan is used once the odometry, the AHRS and the
+/// other lasers have come as far, and what slam made of a frame is used for scans from a fixed time after
+/// that frame on.
 class WearerLocator {
  public:
-  /// What a scan said: T_SF at its stamp, or nothing while the wearer is not known. Called by whoever adds a
-  /// sample, one call at a time; it must not call back.
+  /// What the scans of one stamp said: T_SF at that stamp, or nothing while the wearer is not known. Called
+  /// by whoever adds a sample, one call at a time; it must not call back.
   using Found = std::function<void(Stamp, const std::optional<WearerPoseSample>&)>;
 
   /// `yaw_WA`: from the AHRS's north to the map's x axis, as far as it is known at the start.
@@ -50,18 +53,19 @@ class WearerLocator {
 
   void use_ready_scans();
   bool is_ready(const LaserScanSample& scan) const;
-  void use_first();
+  void use_first_stamp();
   void use(const Heading& heading);
 
   mutable std::mutex mutex_;
   wearer::WearerTracker tracker_;
   wearer::UncertainAngle yaw_WA_;  ///< as configured; slam may know better
   Found found_;
-  std::deque<LaserScanSample> waiting_;  ///< by stamp
+  std::deque<LaserScanSample> waiting_;  ///< by stamp, of one stamp by laser
   std::deque<Heading> headings_;         ///< by stamp, not yet due
   std::optional<Stamp> odometry_stamp_;
   std::optional<Stamp> ahrs_stamp_;
   std::optional<Stamp> used_scan_;
+  std::map<std::string, Stamp> laser_stamps_;  ///< the newest of each
   Stamp newest_scan_ = 0;
   std::uint64_t estimates_late_ = 0;
 };

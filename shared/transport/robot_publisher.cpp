@@ -1,6 +1,20 @@
 #include "shared/transport/robot_publisher.hpp"
 
+#include "shared/transport/codec.hpp"
+
 namespace cosight::transport {
+namespace {
+
+/// As it is when it can't be said.
+template <class Kind>
+void pass_through_message(const Topic<Kind>& topic, Kind& sample) {
+  std::vector<std::uint8_t> payload;
+  if (encode(sample, topic.profile, payload) != Fault::kNone) return;
+  Kind received;
+  if (decode(payload, topic.profile, received) == Fault::kNone) sample = std::move(received);
+}
+
+}  // namespace
 
 RobotPublisher::RobotPublisher(const Participant& participant, ImageEncoding encoding, bool tracks_wearer)
     : frames_(participant,
@@ -44,6 +58,14 @@ std::vector<std::pair<std::string_view, PublisherCounters>> RobotPublisher::coun
       {"dds_robot_wheel_odometry", odometry_.counters()}};
   if (poses_) all.emplace_back("dds_robot_wearer_pose", poses_->counters());
   return all;
+}
+
+Sample as_received(Sample sample) {
+  if (auto* const odometry = std::get_if<WheelOdometrySample>(&sample))
+    pass_through_message(topics::kRobotWheelOdometry, *odometry);
+  if (auto* const pose = std::get_if<WearerPoseSample>(&sample))
+    pass_through_message(topics::kRobotWearerPose, *pose);
+  return sample;
 }
 
 }  // namespace cosight::transport

@@ -39,4 +39,8 @@ class RobotPublisher {
   std::optional<Publisher<WearerPoseSample>> poses_;
 };
 
+/// The sample as whoever listens on its topic gets it: going through a message moves the last digit of the
+/// odometry's yaw and of a pose's quaternion.
+Sample as_received(Sample sample);
+
 }  // namespace cosight::transport

@@ -65,12 +65,37 @@ TEST_F(WearerLocatorTest, AScanWaitsForTheOdometryOfItsTime) {
 }
 
 TEST_F(WearerLocatorTest, ScansOfBothLasersAreUsedInTheOrderOfTheirStamps) {
-  odometry(ms(0));
+  odometry(ms(80));
+  scan(ms(0), "laser_rear");
   scan(ms(30), "laser_front");
+  EXPECT_THAT(used_, ElementsAre(ms(0)));
   scan(ms(10), "laser_rear");
-  scan(ms(70), "laser_front");
-  odometry(ms(50));
-  EXPECT_THAT(used_, ElementsAre(ms(10), ms(30)));
+  EXPECT_THAT(used_, ElementsAre(ms(0), ms(10)));
+  scan(ms(50), "laser_rear");
+  EXPECT_THAT(used_, ElementsAre(ms(0), ms(10), ms(30)));
+}
+
+TEST_F(WearerLocatorTest, WhatBothLasersSawAtOneTimeIsSaidOnceWhicheverCameFirst) {
+  const auto walk = [](bool rear_first) {
+    std::vector<Eigen::Vector3d> positions;
+    std::vector<Stamp> stamps;
+    WearerLocator locator({}, {}, [&](Stamp stamp, const std::optional<WearerPoseSample>& pose) {
+      stamps.push_back(stamp);
+      if (pose) positions.push_back(pose->T_SF.T.p);
+    });
+    LaserScanSample rear = scan_of_person(0);
+    rear.laser = "laser_rear";
+    for (rear.stamp = 0; rear.stamp < ms(1600); rear.stamp += ms(40)) {
+      if (rear_first) locator.add(rear);
+      locator.add(scan_of_person(rear.stamp));
+      if (!rear_first) locator.add(rear);
+      locator.add(WheelOdometrySample{.stamp = rear.stamp});
+    }
+    EXPECT_EQ(stamps.size(), 40U);
+    return positions;
+  };
+  EXPECT_FALSE(walk(true).empty());
+  EXPECT_EQ(walk(true), walk(false));
 }
 
 TEST_F(WearerLocatorTest, OdometryThatStaysAwayIsNotWaitedForLong) {

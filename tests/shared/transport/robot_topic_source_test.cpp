@@ -33,6 +33,20 @@ class RobotTopics : public testing::Test {
   Participant sensors_{loopback("sensors")};
 };
 
+TEST_F(RobotTopics, WhatTheRobotUsesItselfIsToTheLastBitWhatOthersReceive) {
+  RobotTopicSource source(robot_, 0.0, stop_);
+  RobotPublisher publisher(sensors_, ImageEncoding::kJpeg, false);
+  ASSERT_TRUE(is_matched(publisher));
+  for (int i = 0; i < 20; ++i) {
+    const WheelOdometrySample sample = example_.wheel_odometry();
+    publisher.publish(sample);
+    const auto received = source.next();
+    ASSERT_TRUE(received);
+    EXPECT_EQ(std::get<WheelOdometrySample>(*received).yaw,
+              std::get<WheelOdometrySample>(as_received(sample)).yaw);
+  }
+}
+
 TEST_F(RobotTopics, EverySensorComesThrough) {
   RobotTopicSource source(robot_, 0.0, stop_);
   RobotPublisher publisher(sensors_, ImageEncoding::kJpeg, false);
