@@ -25,7 +25,7 @@ stop_recorder() {
   kill -TERM "$recorder" 2>/dev/null || true
   wait_for "$recorder" 10 || status=$?
   recorder=''
-  ((status == 0 || status == 3)) || die "the recorder ended with status $status"
+  ((status == 0 || status == 3)) || { say "the recorder ended with status $status"; return 1; }
 }
 
 # run_replayed FILE DATASET RUN_DIR MODE [ROBOT_OPTION…]: a robot that hears the recording on its topics; DATASET says how
