@@ -24,11 +24,6 @@ AgentInput with_recorded_camera(AgentInput input, const recording::McapReader& r
   return input;
 }
 
-inbox::InboxOptions with_camera(inbox::InboxOptions options, const CameraModel& camera) {
-  options.robot_size = {camera.width, camera.height};
-  return options;
-}
-
 }  // namespace
 
 OfflineRun::OfflineRun(const RobotOptions& options, const outbox::RunDescription& description,
@@ -38,7 +33,7 @@ OfflineRun::OfflineRun(const RobotOptions& options, const outbox::RunDescription
       reader_(options.input.recording),
       source_(reader_),
       input_(with_recorded_camera(prepare_input(options.input, Agent::kRobot, stop), reader_)),
-      inbox_(with_camera(options.inbox, input_.camera), [this] { return arrival_; }),
+      inbox_(inbox::with_camera(options.inbox, input_.camera), [this] { return arrival_; }),
       intake_(inbox_, plan_locator(options, input_)),
       record_(outbox::RunFolder(options.run_dir), description) {
   if (has_slam(options.estimators)) slam_.emplace(input_.camera, options.slam, input_.known_points);
@@ -121,6 +116,7 @@ std::vector<std::string> OfflineRun::finish() {
       });
   if (const auto lost = source_.unusable() + reader_.contents().damaged; lost > 0)
     problems.push_back(std::to_string(lost) + " messages or chunks of the recording could not be used");
+  std::ranges::move(inbox::lost_robot_images(counted), std::back_inserter(problems));
   if (vins_) std::ranges::move(vins_->problems(), std::back_inserter(problems));
   return problems;
 }

@@ -14,11 +14,6 @@ namespace {
 
 using std::chrono::milliseconds;
 
-inbox::InboxOptions with_camera(inbox::InboxOptions options, const CameraModel& camera) {
-  options.robot_size = {camera.width, camera.height};
-  return options;
-}
-
 /// With the camera that its topic tells, when no file does.
 AgentInput with_received_camera(AgentInput input, const RobotOptions& options,
                                 const transport::Participant& participant, const std::atomic<bool>& stop) {
@@ -58,7 +53,7 @@ RobotAgent::RobotAgent(const RobotOptions& options, const outbox::RunDescription
       participant_(options.dds),
       input_(with_received_camera(prepare_input(options.input, Agent::kRobot, stop), options, participant_,
                                   stop)),
-      inbox_(with_camera(options.inbox, input_.camera)),
+      inbox_(inbox::with_camera(options.inbox, input_.camera)),
       intake_(inbox_, participant_, plan_locator(options, input_)),
       record_(outbox::RunFolder(options.run_dir), description),
       publisher_(participant_),
@@ -132,12 +127,7 @@ std::vector<std::string> RobotAgent::finish() {
         std::to_string(lost) +
         " samples of the robot's own input could not be used; see own_sensors in summary.yaml");
   }
-  if (const auto lost = counted.robot_images_dropped + counted.robot_frames_dropped; lost > 0) {
-    problems.push_back(std::to_string(lost) + " robot images came faster than they could be processed");
-  }
-  if (const auto lost = counted.robot_undecodable + counted.robot_wrong_size; lost > 0) {
-    problems.push_back(std::to_string(lost) + " robot images could not be decoded");
-  }
+  std::ranges::move(inbox::lost_robot_images(counted), std::back_inserter(problems));
   if (vins_) std::ranges::move(vins_->problems(), std::back_inserter(problems));
   return problems;
 }

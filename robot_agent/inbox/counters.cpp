@@ -33,4 +33,13 @@ std::vector<std::pair<std::string_view, std::uint64_t>> named_counts(const Inbox
   };
 }
 
+std::vector<std::string> lost_robot_images(const InboxCounters& counters) {
+  std::vector<std::string> sentences;
+  if (const auto lost = counters.robot_images_dropped + counters.robot_frames_dropped; lost > 0)
+    sentences.push_back(std::to_string(lost) + " robot images came faster than they could be processed");
+  if (const auto lost = counters.robot_undecodable + counters.robot_wrong_size; lost > 0)
+    sentences.push_back(std::to_string(lost) + " robot images could not be decoded");
+  return sentences;
+}
+
 }  // namespace cosight::inbox

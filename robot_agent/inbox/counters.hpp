@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -43,5 +44,8 @@ struct InboxCounters {
 
 /// Name and value of each, in the order above, for reports.
 std::vector<std::pair<std::string_view, std::uint64_t>> named_counts(const InboxCounters& counters);
+
+/// Of the robot's own images that could not be used, one sentence for each reason; nothing when all could.
+std::vector<std::string> lost_robot_images(const InboxCounters& counters);
 
 }  // namespace cosight::inbox

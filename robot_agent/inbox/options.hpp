@@ -66,4 +66,10 @@ struct InboxOptions {
   std::optional<CameraModel> camera_F;  ///< calibration of the free camera, when it is not sent
 };
 
+/// For frames of that camera.
+inline InboxOptions with_camera(InboxOptions options, const CameraModel& camera) {
+  options.robot_size = {camera.width, camera.height};
+  return options;
+}
+
 }  // namespace cosight::inbox
