@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <set>
-#include <sstream>
+#include "tests/shared/config/described_defaults.hpp"
 
 namespace cosight::wearable {
 namespace {
@@ -14,22 +13,8 @@ WearableOptions read(const ConfigFile& file) {
   return options;
 }
 
-/// Every key with its value, in any order.
-std::multiset<std::string> lines_of(const std::string& text) {
-  std::multiset<std::string> lines;
-  std::istringstream in(text);
-  for (std::string line; std::getline(in, line);)
-    lines.insert(line);
-  return lines;
-}
-
-TEST(WearableOptionsTest, TheCommentedFileSaysExactlyTheDefaults) {
-  const ConfigOverride dataset{"input.dataset", "/data", "--dataset", true};
-  const ConfigFile empty = ConfigFile::parse("", "empty", {dataset});
-  const ConfigFile commented = ConfigFile::load(COSIGHT_SOURCE_DIR "/config/wearable.yaml", {dataset});
-  read(empty);
-  read(commented);
-  EXPECT_EQ(lines_of(commented.resolved()), lines_of(empty.resolved()));
+TEST(WearableOptionsTest, TheCommentedFileHasEveryKeyWithItsDefault) {
+  expect_describes_defaults("wearable.yaml", read_wearable_options, "input.dataset=folder", {});
 }
 
 TEST(WearableOptionsTest, ReadsWhatTheFileSays) {
