@@ -93,6 +93,8 @@ struct FrameEstimate {
   int landmarks_removed = 0;
   double innovation_rms_px = 0.0;  ///< of the fused bearings
   double nis_per_dof = 0.0;        ///< of everything fused; about 1 when the filter is consistent
+  double test_ratio = 1.0;         ///< share of the landmarks looked for that were found and believed lately
+  int resets = 0;                  ///< how often a lost filter began a new map
   double yaw_offset = 0.0;         ///< of the AHRS's north against W, beyond what is configured [rad]
   double yaw_offset_sigma = 0.0;   ///< [rad]
   StageTimings timings;

@@ -95,6 +95,17 @@ slam::MapOptions read_map(const ConfigNode& node) {
   return o;
 }
 
+slam::HealthOptions read_health(const ConfigNode& node) {
+  slam::HealthOptions o;
+  o.lost_after_s = node.number("lost_after_s", o.lost_after_s, 0.05, 1e6);
+  o.min_test_ratio = node.number("min_test_ratio", o.min_test_ratio, 0.0, 1.0);
+  o.window_s = node.number("window_s", o.window_s, 0.01, 60.0);
+  o.reset_after_s = node.number("reset_after_s", o.reset_after_s, 0.0, 1e6);
+  o.sigma_speed = node.number("sigma_speed", o.sigma_speed, 0.0, 100.0);
+  o.sigma_turn_rate = node.number("sigma_turn_rate", o.sigma_turn_rate, 0.0, 100.0);
+  return o;
+}
+
 slam::StartOptions read_start(const ConfigNode& node) {
   slam::StartOptions o;
   o.T_WS.p = node.vector3("position_W", o.T_WS.p);
@@ -144,6 +155,7 @@ slam::SlamOptions read_slam_options(const ConfigNode& node) {
   options.body = read_body(node.section("wearer_body"));
   options.candidates = read_candidates(node.section("candidates"));
   options.map = read_map(node.section("map"));
+  options.health = read_health(node.section("health"));
   options.start = read_start(node.section("start"));
   return options;
 }

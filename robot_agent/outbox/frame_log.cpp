@@ -86,6 +86,8 @@ constexpr std::array kColumns{
     Column{"landmarks_removed", [](const B&, const E& e) { return std::to_string(e.landmarks_removed); }},
     Column{"innovation_rms_px", [](const B&, const E& e) { return text_of(e.innovation_rms_px); }},
     Column{"nis_per_dof", [](const B&, const E& e) { return text_of(e.nis_per_dof); }},
+    Column{"test_ratio", [](const B&, const E& e) { return text_of(e.test_ratio); }},
+    Column{"resets", [](const B&, const E& e) { return std::to_string(e.resets); }},
     Column{"position_sigma_m", [](const B&, const E& e) { return text_of(position_sigma(e.T_WS)); }},
     Column{"orientation_sigma_deg",
            [](const B&, const E& e) { return text_of(kDegreesPerRadian * orientation_sigma(e.T_WS)); }},

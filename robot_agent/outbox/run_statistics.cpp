@@ -40,6 +40,7 @@ void RunStatistics::report(YamlText& text) const {
       .value("frames_without_image", without_image_)
       .value("frames_tracking", tracking_)
       .value("frames_lost", lost_)
+      .value("resets", resets_)
       .value("frames_with_worn_image", with_worn_image_)
       .value("frames_with_overlap", with_overlap_)
       .value("frames_with_pseudo_stereo", with_match_)
@@ -78,6 +79,7 @@ void RunStatistics::report(YamlText& text) const {
 }
 
 void RunStatistics::add_tracking(const FrameEstimate& estimate) {
+  resets_ = count_of(estimate.resets);
   lost_ += estimate.tracking == Tracking::kLost ? 1 : 0;
   if (estimate.search.fused_pixels + estimate.pseudo_stereo.fused > 0) {
     nis_sum_ += estimate.nis_per_dof;

@@ -38,6 +38,7 @@ class RunStatistics {
   std::uint64_t without_image_ = 0;
   std::uint64_t tracking_ = 0;
   std::uint64_t lost_ = 0;
+  std::uint64_t resets_ = 0;
   std::uint64_t with_worn_image_ = 0;
   std::uint64_t with_overlap_ = 0;
   std::uint64_t with_match_ = 0;

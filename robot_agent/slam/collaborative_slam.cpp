@@ -60,7 +60,8 @@ CollaborativeSlam::CollaborativeSlam(const CameraModel& camera_S, const SlamOpti
       yaw_offset_(options.yaw_offset),
       maintenance_(options.map),
       motion_prior_(options.seed),
-      corners_(corner_options(options.map)) {
+      corners_(corner_options(options.map)),
+      health_(options.health) {
   filter_.reset(start_pose(options.start), options.motion.start_sigma_velocity,
                 options.motion.start_sigma_angular_velocity);
 }
@@ -71,6 +72,7 @@ FrameEstimate CollaborativeSlam::process(const FrameBundle& bundle) {
   estimate.sequence = bundle.sequence;
   Stopwatch watch(clock_);
 
+  if (has_map_ && health_.needs_reset(bundle.stamp)) leave_map(bundle.stamp);
   const bool known_motion = advance_to(bundle);  // predict, or find the motion in the images
   watch.lap(estimate.timings.predict);
 
@@ -87,8 +89,8 @@ FrameEstimate CollaborativeSlam::process(const FrameBundle& bundle) {
   if (view) {
     view_stamp_ = bundle.stamp;
     if (!first_view_stamp_) first_view_stamp_ = bundle.stamp;
-    matches = wearer_matcher_.match(*view, *bundle.image, sightings, filter_, tracks_,
-                                    tracking_ == Tracking::kWaitingForScale, estimate.pseudo_stereo);
+    matches = wearer_matcher_.match(*view, *bundle.image, sightings, filter_, tracks_, !has_map_,
+                                    estimate.pseudo_stereo);
     learn_yaw_offset(*bundle.wearer, *view);
   }
   const auto measurements = wearer_matcher_.measure(view, sightings, matches, estimate.pseudo_stereo);
@@ -114,7 +116,7 @@ bool CollaborativeSlam::advance_to(const FrameBundle& bundle) {
   const double dt = last_stamp_ ? to_seconds(bundle.stamp - *last_stamp_) : 0.0;
   last_stamp_ = bundle.stamp;
   // Without a scale nothing can be estimated: W begins where the first depth is seen.
-  if (tracking_ == Tracking::kWaitingForScale) return false;
+  if (!has_map_) return false;
   const ekf::CameraState before = filter_.camera();
   filter_.predict(dt);
   const auto& predictions = search_.predict(filter_, tracks_);
@@ -145,7 +147,7 @@ bool CollaborativeSlam::may_use_wearer(Stamp stamp) const {
 }
 
 bool CollaborativeSlam::is_wearer_due(Stamp stamp) const {
-  if (tracking_ == Tracking::kWaitingForScale || !view_stamp_) return true;
+  if (!has_map_ || !view_stamp_) return true;
   return to_seconds(stamp - *view_stamp_) >= options_.pseudo_stereo.interval_s;
 }
 
@@ -257,7 +259,7 @@ void CollaborativeSlam::note_fused(const std::vector<Sighting>& sightings, const
 
 void CollaborativeSlam::renew_map(const GrayImage& image, const std::optional<StereoView>& view,
                                   const WornMatches& matches, FrameEstimate& estimate, Stopwatch& watch) {
-  if (tracking_ == Tracking::kWaitingForScale) {
+  if (!has_map_) {
     begin(image, view, estimate);
     watch.lap(estimate.timings.pseudo_stereo);
     return;
@@ -283,25 +285,54 @@ void CollaborativeSlam::renew_map(const GrayImage& image, const std::optional<St
 
 void CollaborativeSlam::begin(const GrayImage& image, const std::optional<StereoView>& view,
                               FrameEstimate& estimate) {
-  if (!known_points_.empty() && start_from_known_points(known_points_, image, options_, filter_, tracks_)) {
-    tracking_ = Tracking::kTracking;
+  if (!known_points_.empty() && resets_ == 0) {
+    has_map_ = start_from_known_points(known_points_, image, options_, filter_, tracks_);
   } else if (options_.start.assumed_depth > 0.0) {
-    if (start_at_assumed_depth(image, corners_, options_, filter_, tracks_)) tracking_ = Tracking::kTracking;
-  } else if (view) {
-    estimate.landmarks_added = add_pseudo_stereo(
-        image, *view, {}, {options_.start.first_landmarks, 2 * options_.start.first_landmarks},
-        estimate.pseudo_stereo);
-    if (is_good_start(estimate.stamp)) {
-      tracking_ = Tracking::kTracking;
-    } else {
-      for (const LandmarkTrack& track : tracks_.all())
-        filter_.remove_landmark(track.id);
-      tracks_.clear();
-      estimate.pseudo_stereo.redundant += std::exchange(estimate.pseudo_stereo.initialised, 0);
-      estimate.landmarks_added = 0;
-    }
+    has_map_ =
+        start_at_assumed_depth(options_.start.assumed_depth, image, corners_, options_, filter_, tracks_);
   }
-  if (tracking_ == Tracking::kTracking) scale_stamp_ = estimate.stamp;
+  if (!has_map_ && view) has_map_ = start_from_view(image, *view, estimate);
+  if (!has_map_ && resets_ > 0)
+    has_map_ = start_at_assumed_depth(depth_before_reset_, image, corners_, options_, filter_, tracks_);
+  if (!has_map_) return;
+  if (!scale_stamp_) scale_stamp_ = estimate.stamp;
+  health_.restart(estimate.stamp);
+}
+
+bool CollaborativeSlam::start_from_view(const GrayImage& image, const StereoView& view,
+                                        FrameEstimate& estimate) {
+  estimate.landmarks_added =
+      add_pseudo_stereo(image, view, {}, {options_.start.first_landmarks, 2 * options_.start.first_landmarks},
+                        estimate.pseudo_stereo);
+  if (is_good_start(estimate.stamp)) return true;
+  forget_landmarks();
+  estimate.pseudo_stereo.redundant += std::exchange(estimate.pseudo_stereo.initialised, 0);
+  estimate.landmarks_added = 0;
+  return false;
+}
+
+void CollaborativeSlam::forget_landmarks() {
+  for (const LandmarkTrack& track : tracks_.all())
+    filter_.remove_landmark(track.id);
+  tracks_.clear();
+}
+
+// The map of a lost filter is wrong where it matters. What it was before stays in the archive; the new one
+// begins where the filter was last sure, with the doubt of what the robot may have done since.
+void CollaborativeSlam::leave_map(Stamp stamp) {
+  ++resets_;
+  candidates_.clear(filter_);
+  forget_landmarks();
+  const double elapsed = to_seconds(stamp - sure_stamp_);
+  const double sigma_p = options_.health.sigma_speed * elapsed;
+  const double sigma_q = options_.health.sigma_turn_rate * elapsed;
+  UncertainPose T_WS = sure_T_WS_;
+  T_WS.covariance.diagonal().head<3>().array() += sigma_p * sigma_p;
+  T_WS.covariance.diagonal().tail<3>().array() += sigma_q * sigma_q;
+  filter_.reset(T_WS, options_.motion.start_sigma_velocity, options_.motion.start_sigma_angular_velocity);
+  search_.predict(filter_, tracks_);
+  first_view_stamp_.reset();
+  has_map_ = false;
 }
 
 bool CollaborativeSlam::is_good_start(Stamp stamp) const {
@@ -333,15 +364,21 @@ void CollaborativeSlam::renew_references(const GrayImage& image) {
   }
 }
 
-void CollaborativeSlam::describe(FrameEstimate& estimate) {
-  const int fused =
-      estimate.search.fused_pixels + estimate.pseudo_stereo.fused + estimate.pseudo_stereo.initialised;
-  frames_without_match_ = fused > 0 ? 0 : frames_without_match_ + 1;
-  constexpr int kLostAfter = 5;
-  if (tracking_ != Tracking::kWaitingForScale) {
-    tracking_ = frames_without_match_ > kLostAfter ? Tracking::kLost : Tracking::kTracking;
+Tracking CollaborativeSlam::judge(const FrameEstimate& estimate) {
+  if (!has_map_) return resets_ > 0 ? Tracking::kLost : Tracking::kWaitingForScale;
+  health_.note(estimate.stamp, estimate.search, estimate.pseudo_stereo);
+  if (health_.is_sure()) {
+    sure_stamp_ = estimate.stamp;
+    sure_T_WS_ = filter_.T_WS();
+    depth_before_reset_ = usual_depth(search_.predictions());
   }
-  estimate.tracking = tracking_;
+  return health_.is_lost() ? Tracking::kLost : Tracking::kTracking;
+}
+
+void CollaborativeSlam::describe(FrameEstimate& estimate) {
+  estimate.tracking = judge(estimate);
+  estimate.test_ratio = health_.test_ratio();
+  estimate.resets = resets_;
   estimate.T_WS = filter_.T_WS();
   pose_covariance_ = estimate.T_WS.covariance;
   const ekf::CameraState camera = filter_.camera();

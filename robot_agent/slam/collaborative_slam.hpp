@@ -10,6 +10,7 @@
 #include "robot_agent/frame_estimate.hpp"
 #include "robot_agent/map/map_archive.hpp"
 #include "robot_agent/slam/candidate_pool.hpp"
+#include "robot_agent/slam/health.hpp"
 #include "robot_agent/slam/known_start.hpp"
 #include "robot_agent/slam/landmark_search.hpp"
 #include "robot_agent/slam/landmark_tracks.hpp"
@@ -58,9 +59,13 @@ class CollaborativeSlam {
   void renew_map(const GrayImage& image, const std::optional<StereoView>& view, const WornMatches& matches,
                  FrameEstimate& estimate, Stopwatch& watch);
   void begin(const GrayImage& image, const std::optional<StereoView>& view, FrameEstimate& estimate);
+  bool start_from_view(const GrayImage& image, const StereoView& view, FrameEstimate& estimate);
+  void forget_landmarks();
+  void leave_map(Stamp stamp);
   int add_pseudo_stereo(const GrayImage& image, const StereoView& view, const WornMatches& matches,
                         const NewPoints::Budget& budget, PseudoStereoCounts& counts);
   void renew_references(const GrayImage& image);
+  Tracking judge(const FrameEstimate& estimate);
   void describe(FrameEstimate& estimate);
 
   SlamOptions options_;
@@ -79,7 +84,6 @@ class CollaborativeSlam {
   vision::PointTracker tracker_;
   vision::CornerDetector corners_;
 
-  Tracking tracking_ = Tracking::kWaitingForScale;
   Eigen::Matrix<double, 6, 6> pose_covariance_ =
       Eigen::Matrix<double, 6, 6>::Zero();  ///< after the last frame
   ConvexPolygon silhouette_;                ///< of the wearer in the present frame [px]
@@ -87,7 +91,13 @@ class CollaborativeSlam {
   std::optional<Stamp> scale_stamp_;       ///< when tracking began
   std::optional<Stamp> first_view_stamp_;  ///< when the views overlapped first
   std::optional<Stamp> view_stamp_;        ///< of the last frame whose overlap with Cf was measured
-  int frames_without_match_ = 0;
+
+  bool has_map_ = false;
+  Health health_;
+  int resets_ = 0;
+  Stamp sure_stamp_ = 0;  ///< of the last frame in which the filter was not lost
+  UncertainPose sure_T_WS_;
+  double depth_before_reset_ = 0.0;  ///< usual in view then [m]
 };
 
 }  // namespace cosight::slam

@@ -47,13 +47,13 @@ bool start_from_known_points(const std::vector<KnownPoint>& points, const GrayIm
   return true;
 }
 
-bool start_at_assumed_depth(const GrayImage& image, const vision::CornerDetector& detector,
+bool start_at_assumed_depth(double depth, const GrayImage& image, const vision::CornerDetector& detector,
                             const SlamOptions& options, ekf::Filter& filter, LandmarkTracks& tracks) {
   const auto corners = detector.detect(image, {}, options.start.first_landmarks);
   if (static_cast<int>(corners.size()) < options.start.min_landmarks) return false;
   constexpr double kRelativeSigma = 0.5;
   for (const vision::Corner& corner : corners) {
-    const auto id = filter.add_landmark_at_depth(corner.pixel, options.start.assumed_depth, kRelativeSigma);
+    const auto id = filter.add_landmark_at_depth(corner.pixel, depth, kRelativeSigma);
     if (id) tracks.add(first_track(*id, image, corner.pixel, filter.camera().T_WS()));
   }
   return true;

@@ -19,9 +19,9 @@ namespace cosight::slam {
 bool start_from_known_points(const std::vector<KnownPoint>& points, const GrayImage& image,
                              const SlamOptions& options, ekf::Filter& filter, LandmarkTracks& tracks);
 
-/// Starts the map with corners of the first image, all at `start.assumed_depth`: nothing tells the scale.
-/// False, and nothing changed, with fewer than `start.min_landmarks`.
-bool start_at_assumed_depth(const GrayImage& image, const vision::CornerDetector& detector,
+/// Starts the map with corners of one image, all at the same depth [m]: nothing tells the scale. False, and
+/// nothing changed, with fewer than `start.min_landmarks`.
+bool start_at_assumed_depth(double depth, const GrayImage& image, const vision::CornerDetector& detector,
                             const SlamOptions& options, ekf::Filter& filter, LandmarkTracks& tracks);
 
 }  // namespace cosight::slam

@@ -50,6 +50,7 @@ std::vector<Sighting> LandmarkSearch::find(const GrayImage& image, const ekf::Fi
                                            LandmarkTracks& tracks, bool known_motion,
                                            const ConvexPolygon& hidden, SearchCounts& counts) {
   std::vector<Sighting> sightings;
+  std::vector<LandmarkTrack*> missed;
   counts.predicted_in_view = static_cast<int>(predictions_.size());
   for (const ekf::PixelPrediction& prediction : predictions_) {
     if (counts.searched == options_.max_measured) break;
@@ -57,7 +58,6 @@ std::vector<Sighting> LandmarkSearch::find(const GrayImage& image, const ekf::Fi
     LandmarkTrack& track = *tracks.find(prediction.landmark);
     const auto patch = predicted_patch(filter, track);
     ++counts.searched;
-    ++track.attempts;
     constexpr double kKnownMotionSigma = 2.5;  // what the found motion leaves unexplained [px]
     const Eigen::Matrix2d S =
         known_motion ? Eigen::Matrix2d(kKnownMotionSigma * kKnownMotionSigma * Eigen::Matrix2d::Identity())
@@ -65,10 +65,17 @@ std::vector<Sighting> LandmarkSearch::find(const GrayImage& image, const ekf::Fi
     const auto match = patch ? search_.find(image, *patch, prediction.pixel, S) : vision::PatchMatch{};
     if (!match) {
       ++counts.not_found;
-      ++track.failures;
+      missed.push_back(&track);
       continue;
     }
+    ++track.attempts;
     sightings.push_back({track.id, match.pixel});
+  }
+  // An image that shows none of them, such as one of a covered lens, says nothing of any one of them.
+  if (sightings.empty()) return sightings;
+  for (LandmarkTrack* track : missed) {
+    ++track->attempts;
+    ++track->failures;
   }
   return sightings;
 }

@@ -134,6 +134,16 @@ struct StartOptions {
   double known_pixel_sigma = 1.0;   ///< of their pixels in the first frame [px]
 };
 
+/// When the filter is lost, and what is done then.
+struct HealthOptions {
+  double lost_after_s = 0.5;     ///< without any match that holds
+  double min_test_ratio = 0.2;   ///< of the landmarks looked for, over `window_s`; below it the map is wrong
+  double window_s = 0.3;         ///< [s], the time in which what was seen fades to a third
+  double reset_after_s = 1.0;    ///< lost for so long, slam begins a new map where it was last sure; 0: never
+  double sigma_speed = 0.5;      ///< of what the robot did meanwhile [m/s]
+  double sigma_turn_rate = 0.3;  ///< the same [rad/s]
+};
+
 struct SlamOptions {
   Mode mode = Mode::kCollaborative;
   std::uint32_t seed = 1;  ///< of every random choice (RANSAC)
@@ -143,6 +153,7 @@ struct SlamOptions {
   BodyOptions body;
   CandidateOptions candidates;
   MapOptions map;
+  HealthOptions health;
   StartOptions start;
   /// The AHRS's north against W. A wearer's pose with an orientation of its own does not need it.
   wearer::YawOffsetOptions yaw_offset{.prior = {0.0, 0.035}};

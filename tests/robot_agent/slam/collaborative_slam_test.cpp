@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 
 #include "shared/evaluation/trajectory_errors.hpp"
@@ -256,6 +258,52 @@ TEST(CollaborativeSlam, MonoUsesTheWearerForTheScaleAndNeverAgain) {
     EXPECT_EQ(estimate.pseudo_stereo.described, 0);
     EXPECT_EQ(estimate.pseudo_stereo_outcome, PseudoStereoOutcome::kNoWearerImage);
   }
+}
+
+/// The robot's lens is covered, and nothing comes from the wearer.
+FrameBundle in_the_dark(int frame) {
+  FrameBundle bundle = world().without_wearer(frame);
+  auto black = std::make_shared<GrayImage>(*bundle.image);
+  std::fill(black->data.begin(), black->data.end(), std::uint8_t{0});
+  bundle.image = black;
+  return bundle;
+}
+
+TEST(CollaborativeSlam, LostItSaysSoWithinASecondAndBeginsAnewWhereItWasSure) {
+  CollaborativeSlam slam = collaborative();
+  const auto before = run(slam, 0, 12);
+  const std::size_t mapped = slam.map().size();
+  std::vector<FrameEstimate> dark;
+  for (int frame = 12; frame < 30; ++frame)
+    dark.push_back(slam.process(in_the_dark(frame)));
+  EXPECT_EQ(dark[9].tracking, Tracking::kLost) << "a second after the light went out";
+  EXPECT_EQ(dark.back().resets, 1);
+  EXPECT_GE(slam.map().size(), mapped) << "what was mapped stays in the map";
+  const auto after = run(slam, 30, 40);
+  for (const FrameEstimate& estimate : after) {
+    expect_sound(estimate);
+    EXPECT_EQ(estimate.tracking, Tracking::kTracking);
+    EXPECT_EQ(estimate.resets, 1);
+  }
+  const Eigen::Vector3d moved = after.back().T_WS.T.p - after.front().T_WS.T.p;
+  const Eigen::Vector3d truly = world().T_WS(39).p - world().T_WS(30).p;
+  EXPECT_LT((moved - truly).norm(), 0.15 * truly.norm()) << "metric again, by the wearer";
+  EXPECT_LT((after.front().T_WS.T.p - before.back().T_WS.T.p).norm(), 0.05) << "where it was sure last";
+  EXPECT_GT(position_std(after.front()), 10.0 * position_std(before.back()))
+      << "and it admits the way in the dark";
+}
+
+TEST(CollaborativeSlam, LostWithoutAWearerItGoesOnInTheUsualDepth) {
+  SlamOptions options = world().options();
+  options.mode = Mode::kMono;
+  CollaborativeSlam slam(world().camera(), options);
+  run(slam, 0, 12);
+  for (int frame = 12; frame < 30; ++frame)
+    slam.process(in_the_dark(frame));
+  const auto after = run_without_wearer(slam, 30, 40);
+  EXPECT_EQ(after.front().tracking, Tracking::kTracking);
+  EXPECT_EQ(after.back().tracking, Tracking::kTracking);
+  EXPECT_EQ(after.back().resets, 1);
 }
 
 TEST(WhyNoMatch, SaysThatNoWornImageOrNoPoseCame) {
