@@ -1,6 +1,10 @@
 #include "robot_agent/outbox/conversions.hpp"
 
+#include <array>
+#include <cstdio>
+
 #include "robot_agent/map/map_archive.hpp"
+#include "robot_agent/outbox/frame_log.hpp"
 
 namespace cosight::outbox {
 
@@ -35,6 +39,27 @@ OverlapSample overlap_of(const FrameEstimate& estimate) {
   sample.initialised = static_cast<std::uint32_t>(counts.initialised);
   sample.redundant = static_cast<std::uint32_t>(counts.redundant);
   sample.outcome = to_string(estimate.pseudo_stereo_outcome);
+  return sample;
+}
+
+DiagnosticSample diagnostic_of(const FrameEstimate& estimate) {
+  DiagnosticSample sample;
+  sample.stamp = estimate.stamp;
+  sample.level = estimate.tracking == Tracking::kTracking ? DiagnosticLevel::kOk
+                 : estimate.tracking == Tracking::kLost   ? DiagnosticLevel::kError
+                                                          : DiagnosticLevel::kWarning;
+  sample.name = "slam";
+  sample.message = to_string(estimate.tracking);
+  const auto add = [&sample](const char* key, double value) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.4g", value);
+    sample.values.emplace_back(key, text.data());
+  };
+  add("innovation_ratio", estimate.nis_per_dof);
+  add("test_ratio", estimate.test_ratio);
+  add("landmarks", estimate.landmarks);
+  add("position_sigma_m", position_sigma(estimate.T_WS));
+  add("resets", estimate.resets);
   return sample;
 }
 

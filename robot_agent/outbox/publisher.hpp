@@ -29,7 +29,8 @@ class Throttle {
   std::optional<Stamp> last_;
 };
 
-/// Publishes what slam says: odometry and overlap of each frame, the map now and then.
+/// Publishes what slam says: odometry and overlap of each frame, the map now and then, its health once a
+/// second and whenever it changes.
 class EstimatePublisher {
  public:
   using MapSource = std::function<std::vector<MapPoint>()>;
@@ -44,14 +45,17 @@ class EstimatePublisher {
   /// Waits until readers have the last samples, at most `timeout` each.
   void finish(std::chrono::milliseconds timeout);
 
-  /// Sections `dds_odometry`, `dds_overlap`, `dds_map`.
+  /// Sections `dds_odometry`, `dds_overlap`, `dds_diagnostics`, `dds_map`.
   void report(YamlText& text) const;
 
  private:
   transport::Publisher<OdometrySample> odometry_;
   transport::Publisher<OverlapSample> overlap_;
+  transport::Publisher<DiagnosticSample> diagnostics_;
   transport::Publisher<PointCloudSample> map_;
   Throttle map_throttle_;
+  Throttle diagnostics_throttle_{kNanosecondsPerSecond};
+  std::optional<Tracking> last_tracking_;
 };
 
 /// Counters of one topic as a section of a summary.

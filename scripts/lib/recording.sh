@@ -42,7 +42,7 @@ run_replayed() {
   agent_pids+=("$robot")
   "$programs/cosight" replay "$file" --domain "$domain" --patience 20 \
     --wait-for '/cosight/robot/image*' '/cosight/wearable/image*' '/cosight/wearable/imu' \
-    --exclude '/cosight/robot/odometry' '/cosight/robot/map' '/cosight/robot/overlap' '/cosight/robot/heartbeat' \
+    --exclude '/cosight/robot/odometry' '/cosight/robot/map' '/cosight/robot/overlap' '/cosight/robot/diagnostics' '/cosight/robot/heartbeat' \
     >"$run_dir.replay.log" 2>&1 || die "the replay failed; see $run_dir.replay.log"
   wait_for "$robot" 30 || status=$?
   stop_agents

@@ -41,6 +41,7 @@ Fault encode(const WearerPoseSample& sample, const TopicProfile& topic, std::vec
 Fault encode(const OdometrySample& sample, const TopicProfile& topic, std::vector<std::uint8_t>& payload);
 Fault encode(const PointCloudSample& sample, const TopicProfile& topic, std::vector<std::uint8_t>& payload);
 Fault encode(const OverlapSample& sample, const TopicProfile& topic, std::vector<std::uint8_t>& payload);
+Fault encode(const DiagnosticSample& sample, const TopicProfile& topic, std::vector<std::uint8_t>& payload);
 Fault encode(const HeartbeatSample& sample, const TopicProfile& topic, std::vector<std::uint8_t>& payload);
 
 /// The sample in a payload that came from anywhere, every value checked. Never throws; `sample` is meaningful
@@ -55,6 +56,7 @@ Fault decode(std::span<const std::uint8_t> payload, const TopicProfile& topic, W
 Fault decode(std::span<const std::uint8_t> payload, const TopicProfile& topic, OdometrySample& sample);
 Fault decode(std::span<const std::uint8_t> payload, const TopicProfile& topic, PointCloudSample& sample);
 Fault decode(std::span<const std::uint8_t> payload, const TopicProfile& topic, OverlapSample& sample);
+Fault decode(std::span<const std::uint8_t> payload, const TopicProfile& topic, DiagnosticSample& sample);
 Fault decode(std::span<const std::uint8_t> payload, const TopicProfile& topic, HeartbeatSample& sample);
 
 }  // namespace cosight::transport

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "shared/dataset/sample.hpp"
@@ -58,6 +59,17 @@ struct OverlapSample {
   std::uint32_t initialised = 0;
   std::uint32_t redundant = 0;
   std::string outcome;
+};
+
+enum class DiagnosticLevel : std::uint8_t { kOk = 0, kWarning = 1, kError = 2, kStale = 3 };
+
+/// How a part of an agent is, for monitors (diagnostic_msgs/DiagnosticArray with one status).
+struct DiagnosticSample {
+  Stamp stamp = 0;
+  DiagnosticLevel level = DiagnosticLevel::kOk;
+  std::string name;     ///< of the part
+  std::string message;  ///< in a few words
+  std::vector<std::pair<std::string, std::string>> values;
 };
 
 /// "I am here" (cosight_msgs/Heartbeat). A new `instance_id` under a known `agent_id` is a restart when the

@@ -110,6 +110,10 @@ const TopicProfile kRobotOverlap{.name = "rt/cosight/robot/overlap",
                                  .kind = MessageKind::kOverlapReport,
                                  .frame_id = frames::kRobotCamera,
                                  .depth = kReportDepth};
+const TopicProfile kRobotDiagnostics{.name = "rt/cosight/robot/diagnostics",
+                                     .kind = MessageKind::kDiagnosticArray,
+                                     .frame_id = frames::kRobotCamera,
+                                     .depth = kReportDepth};
 const TopicProfile kRobotHeartbeat{.name = "rt/cosight/robot/heartbeat",
                                    .kind = MessageKind::kHeartbeat,
                                    .frame_id = frames::kRobotCamera,
@@ -138,6 +142,8 @@ std::string_view type_name(MessageKind kind) {
       return "sensor_msgs::msg::dds_::PointCloud2_";
     case MessageKind::kOverlapReport:
       return "cosight_msgs::msg::dds_::OverlapReport_";
+    case MessageKind::kDiagnosticArray:
+      return "diagnostic_msgs::msg::dds_::DiagnosticArray_";
     case MessageKind::kHeartbeat:
       return "cosight_msgs::msg::dds_::Heartbeat_";
   }
@@ -162,6 +168,7 @@ std::span<const TopicProfile* const> all_topics() {
                                       &profiles::kRobotVinsOdometry,
                                       &profiles::kRobotMap,
                                       &profiles::kRobotOverlap,
+                                      &profiles::kRobotDiagnostics,
                                       &profiles::kRobotHeartbeat};
   return kAll;
 }

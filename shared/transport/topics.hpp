@@ -20,6 +20,7 @@ enum class MessageKind {
   kOdometry,
   kPointCloud2,
   kOverlapReport,
+  kDiagnosticArray,
   kHeartbeat,
 };
 
@@ -76,6 +77,7 @@ extern const TopicProfile kRobotOdometry;
 extern const TopicProfile kRobotVinsOdometry;
 extern const TopicProfile kRobotMap;
 extern const TopicProfile kRobotOverlap;
+extern const TopicProfile kRobotDiagnostics;
 extern const TopicProfile kRobotHeartbeat;
 }  // namespace profiles
 
@@ -99,6 +101,7 @@ inline constexpr Topic<OdometrySample> kRobotOdometry{profiles::kRobotOdometry};
 inline constexpr Topic<OdometrySample> kRobotVinsOdometry{profiles::kRobotVinsOdometry};
 inline constexpr Topic<PointCloudSample> kRobotMap{profiles::kRobotMap};
 inline constexpr Topic<OverlapSample> kRobotOverlap{profiles::kRobotOverlap};
+inline constexpr Topic<DiagnosticSample> kRobotDiagnostics{profiles::kRobotDiagnostics};
 inline constexpr Topic<HeartbeatSample> kRobotHeartbeat{profiles::kRobotHeartbeat};
 }  // namespace topics
 

@@ -190,7 +190,6 @@ TEST_F(RunFiles, EvaluationReadsTheFrameLog) {
   const auto rows = read_frame_log(folder / "frames.csv");
   ASSERT_EQ(rows.size(), 1U);
   EXPECT_EQ(rows[0].stamp, from_seconds(0.1));
-  EXPECT_TRUE(rows[0].overlap);
   EXPECT_TRUE(rows[0].pseudo_stereo);
   EXPECT_EQ(rows[0].landmarks, 12.0);
   EXPECT_EQ(rows[0].total_ms, 4.5);

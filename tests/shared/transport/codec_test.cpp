@@ -62,6 +62,7 @@ TEST_F(Codec, EverySampleComesBackAsItWent) {
   same(topics::kRobotMap, example.cloud(100));
   same(topics::kRobotMap, example.cloud(0));
   same(topics::kRobotOverlap, example.overlap());
+  same(topics::kRobotDiagnostics, example.diagnostic());
   same(topics::kRobotHeartbeat, example.heartbeat());
 }
 
@@ -253,6 +254,7 @@ class HostilePayload : public ::testing::Test {
     add(topics::kRobotOdometry, example.odometry());
     add(topics::kRobotMap, example.cloud(10));
     add(topics::kRobotOverlap, example.overlap());
+    add(topics::kRobotDiagnostics, example.diagnostic());
     add(topics::kRobotHeartbeat, example.heartbeat());
   }
 

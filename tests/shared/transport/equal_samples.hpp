@@ -96,6 +96,14 @@ inline void expect_equal(const PointCloudSample& a, const PointCloudSample& b) {
   }
 }
 
+inline void expect_equal(const DiagnosticSample& a, const DiagnosticSample& b) {
+  EXPECT_EQ(a.stamp, b.stamp);
+  EXPECT_EQ(a.level, b.level);
+  EXPECT_EQ(a.name, b.name);
+  EXPECT_EQ(a.message, b.message);
+  EXPECT_EQ(a.values, b.values);
+}
+
 inline void expect_equal(const OverlapSample& a, const OverlapSample& b) {
   EXPECT_EQ(a.stamp, b.stamp);
   EXPECT_EQ(a.predicted, b.predicted);

@@ -111,6 +111,10 @@ struct ExampleSamples {
     return sample;
   }
 
+  DiagnosticSample diagnostic() {
+    return {kStamp, DiagnosticLevel::kError, "slam", "lost", {{"test_ratio", "0.05"}, {"resets", "3"}}};
+  }
+
   HeartbeatSample heartbeat() {
     HeartbeatSample sample;
     sample.stamp = kStamp;

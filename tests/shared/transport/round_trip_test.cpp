@@ -55,6 +55,9 @@ TEST_F(RoundTrip, Map) {
 TEST_F(RoundTrip, Overlap) {
   travels_unchanged(topics::kRobotOverlap, example.overlap());
 }
+TEST_F(RoundTrip, Diagnostics) {
+  travels_unchanged(topics::kRobotDiagnostics, example.diagnostic());
+}
 TEST_F(RoundTrip, Heartbeat) {
   travels_unchanged(topics::kWearableHeartbeat, example.heartbeat());
   travels_unchanged(topics::kRobotHeartbeat, example.heartbeat());
