@@ -91,13 +91,13 @@ LiveStream play(Sources sources, double rate, Publisher& publisher, const std::a
   return stream;
 }
 
-/// True when both have a reader; false when the time is up or `stop` is set.
+/// True when a robot reads what both say; false when the time is up or `stop` is set.
 bool wait_for_readers(const transport::RobotPublisher& robot, const transport::WearerPublisher& wearer,
                       double patience, const std::atomic<bool>& stop) {
   constexpr milliseconds kSlice{20};
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(patience);
   while (!stop && std::chrono::steady_clock::now() < end) {
-    if (robot.wait_for_frame_reader(kSlice) && wearer.wait_for_frame_reader(kSlice)) return true;
+    if (robot.wait_for_robot(kSlice) && wearer.wait_for_robot(kSlice)) return true;
   }
   return false;
 }

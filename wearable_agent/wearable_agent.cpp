@@ -75,7 +75,7 @@ void WearableAgent::wait_for_robot() const {
   spdlog::info("waiting up to {:g} s for a robot on domain {}", options_.wait_for_robot, options_.dds.domain);
   const Stamp end = clock_.now() + from_seconds(options_.wait_for_robot);
   constexpr milliseconds kSlice{50};
-  while (!publisher_.wait_for_frame_reader(kSlice)) {
+  while (!publisher_.wait_for_robot(kSlice)) {
     if (stop_) return;
     refuse_to_be_second();
     if (clock_.now() > end) {

@@ -1,6 +1,7 @@
 #include "shared/transport/robot_publisher.hpp"
 
 #include "shared/transport/codec.hpp"
+#include "shared/transport/matching.hpp"
 
 namespace cosight::transport {
 namespace {
@@ -41,8 +42,11 @@ void RobotPublisher::publish(const Sample& sample) {
   }
 }
 
-bool RobotPublisher::wait_for_frame_reader(std::chrono::milliseconds timeout) const {
-  return frames_.wait_for_readers(1, timeout);
+bool RobotPublisher::wait_for_robot(std::chrono::milliseconds timeout) const {
+  if (!frames_.wait_for_readers(1, timeout)) return false;
+  wait_for_further_readers(front_scans_, rear_scans_, imu_, odometry_);
+  if (poses_) wait_for_further_readers(*poses_);
+  return true;
 }
 
 bool RobotPublisher::wait_until_delivered(std::chrono::milliseconds timeout) {

@@ -20,8 +20,8 @@ class RobotPublisher {
   void publish(const CameraModel& camera, Stamp stamp);
   void publish(const Sample& sample);
 
-  /// A reader of frames has matched.
-  bool wait_for_frame_reader(std::chrono::milliseconds timeout) const;
+  /// A reader of frames has matched, and those of the other sensors, if there are any, within a second of it.
+  bool wait_for_robot(std::chrono::milliseconds timeout) const;
 
   /// Every frame sent has been acknowledged, or the time is up.
   bool wait_until_delivered(std::chrono::milliseconds timeout);

@@ -1,5 +1,7 @@
 #include "shared/transport/wearer_publisher.hpp"
 
+#include "shared/transport/matching.hpp"
+
 namespace cosight::transport {
 
 WearerPublisher::WearerPublisher(const Participant& participant, ImageEncoding encoding)
@@ -17,12 +19,9 @@ void WearerPublisher::publish(const Sample& sample) {
   if (const auto* const orientation = std::get_if<AhrsSample>(&sample)) orientations_.publish(*orientation);
 }
 
-bool WearerPublisher::wait_for_frame_reader(std::chrono::milliseconds timeout) const {
+bool WearerPublisher::wait_for_robot(std::chrono::milliseconds timeout) const {
   if (!images_.wait_for_readers(1, timeout)) return false;
-  // A robot reads orientations as well, and its readers match one after the other: what is sent between is
-  // lost.
-  constexpr std::chrono::milliseconds kMatching{500};
-  orientations_.wait_for_readers(1, kMatching);
+  wait_for_further_readers(orientations_);
   return true;
 }
 

@@ -26,7 +26,7 @@ class WearerPublisher {
   void publish(const Sample& sample);
 
   /// A reader of frames has matched, and one of orientations, if there is any, within half a second of it.
-  bool wait_for_frame_reader(std::chrono::milliseconds timeout) const;
+  bool wait_for_robot(std::chrono::milliseconds timeout) const;
   int frame_readers() const { return images_.counters().readers; }
 
   /// Everything sent has been acknowledged, or the time is up.

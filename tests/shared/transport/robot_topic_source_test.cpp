@@ -72,6 +72,27 @@ TEST_F(RobotTopics, EverySensorComesThrough) {
   EXPECT_EQ(source.counters().delivered, 5U);
 }
 
+TEST_F(RobotTopics, ThePublisherWaitsForAllOfTheRobotsReaders) {
+  RobotPublisher publisher(sensors_, ImageEncoding::kJpeg, false);
+  const InboxOf<ImageSample> frames(robot_, topics::kRobotImageCompressed);
+  std::optional<InboxOf<WheelOdometrySample>> odometry;
+  std::jthread late([&] {
+    std::this_thread::sleep_for(50ms);
+    odometry.emplace(robot_, topics::kRobotWheelOdometry);
+  });
+  EXPECT_TRUE(publisher.wait_for_robot(5000ms));
+  const auto counters = publisher.counters();
+  EXPECT_EQ(counters.back().first, "dds_robot_wheel_odometry");
+  EXPECT_EQ(counters.back().second.readers, 1);
+}
+
+TEST_F(RobotTopics, ARobotNeedNotReadThemAll) {
+  RobotPublisher publisher(sensors_, ImageEncoding::kJpeg, false);
+  EXPECT_FALSE(publisher.wait_for_robot(50ms));
+  const InboxOf<ImageSample> frames(robot_, topics::kRobotImageCompressed);
+  EXPECT_TRUE(publisher.wait_for_robot(5000ms));
+}
+
 TEST_F(RobotTopics, TheStreamEndsWhenItsPublisherHasGone) {
   RobotTopicSource source(robot_, 0.2, stop_);
   std::optional<RobotPublisher> publisher(std::in_place, sensors_, ImageEncoding::kJpeg, false);
