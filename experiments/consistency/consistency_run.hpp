@@ -54,7 +54,7 @@ struct NisSum {
 struct MatchCounts {
   int right = 0, right_fused = 0;
   int wrong = 0, wrong_fused = 0;
-  double validation_s = 0.0;  ///< time the validation took [s]
+  double validation_s = 0.0;  ///< CPU time the validation took [s]
 };
 
 /// One frame of one run.

@@ -19,7 +19,7 @@ using namespace cosight::experiments;  // NOLINT(google-build-using-namespace)
 namespace fs = std::filesystem;
 
 struct Mode {
-  const char* name;
+  std::string name;
   RunOptions options;
 };
 
@@ -54,12 +54,59 @@ std::vector<Mode> modes() {
     o.first_pose = FirstPose::kIndependent;
   });
   add("overconfident", [](RunOptions& o) { o.claimed_variance = 1.0 / 3.0; });
-  for (const WearerForm form : {WearerForm::kPixel, WearerForm::kPoint}) {
-    add(form == WearerForm::kPixel ? "wide_noise" : "wide_noise_points", [form](RunOptions& o) {
-      o.wearer_form = form;
-      o.world.wearer_sigma_p = 0.05;
-      o.world.wearer_sigma_theta = 2.0 * std::numbers::pi / 180.0;
-    });
+  add("real_association", [](RunOptions& o) {
+    o.validation = Validation::kHohctThenEach;
+    o.wrong.share = 0.3;
+  });
+  return all;
+}
+
+/// How the error of T_SF is treated: the paper's way, as noise of pixels, as a state.
+struct Treatment {
+  const char* name;
+  WearerForm form;
+  bool is_state;
+  int iterations;
+};
+constexpr std::array<Treatment, 4> kTreatments{{{"points", WearerForm::kPoint, false, 1},
+                                                {"pixels", WearerForm::kPixel, false, 1},
+                                                {"state", WearerForm::kPixel, true, 1},
+                                                {"state_iterated", WearerForm::kPixel, true, 4}}};
+
+/// An error of T_SF that is wide, or wanders, or both, in each treatment; the state is told how it wanders.
+std::vector<Mode> rig_error_modes() {
+  struct Error {
+    const char* name;
+    double sigma_p;      ///< [m]
+    double sigma_theta;  ///< [deg]
+    double time;         ///< [s] 0: white
+  };
+  constexpr std::array<Error, 6> kErrors{{{"wide", 0.05, 2.0, 0.0},
+                                          {"wide_1s", 0.05, 2.0, 1.0},
+                                          {"wide_3s", 0.05, 2.0, 3.0},
+                                          {"wide_10s", 0.05, 2.0, 10.0},
+                                          {"narrow_3s", 0.02, 0.29, 3.0},
+                                          {"turned_3s", 0.01, 2.0, 3.0}}};
+  std::vector<Mode> all;
+  for (const Error& error : kErrors) {
+    for (const Treatment& treatment : kTreatments) {
+      RunOptions o;
+      o.world.wearer_sigma_p = error.sigma_p;
+      o.world.wearer_sigma_theta = error.sigma_theta * std::numbers::pi / 180.0;
+      o.world.wearer_error_time = error.time;
+      o.wearer_form = treatment.form;
+      o.filter.rig_error = {treatment.is_state, error.time, 0.0};
+      o.filter.max_iterations = treatment.iterations;
+      all.push_back({std::string(error.name) + "_" + treatment.name, o});
+    }
+  }
+  // A state that is told the wrong thing: 3 s of a white error, with all of it or half of it believed to
+  // wander.
+  for (const double white_share : {0.0, 0.5}) {
+    Mode told_wrong = all[2];
+    told_wrong.name = white_share > 0.0 ? "wide_state_told_half_3s" : "wide_state_told_3s";
+    told_wrong.options.filter.rig_error = {true, 3.0, white_share};
+    all.push_back(told_wrong);
   }
   return all;
 }
@@ -105,19 +152,28 @@ void run_association(int runs, Figures& figures) {
   }
 }
 
+/// Runs the modes, writes their courses, and prints and adds up their figures.
+void run_modes(const std::vector<Mode>& modes, int runs, const fs::path& folder, Figures& all) {
+  Figures figures;
+  for (const Mode& mode : modes) {
+    const ConsistencyCourse course = monte_carlo(mode.options, runs);
+    write_course(folder / ("nees_" + mode.name + ".csv"), mode.options, course);
+    summarise(course, mode.name, figures);
+    if (mode.options.wrong.share > 0.0) summarise_matches(course, mode.name, figures);
+  }
+  std::printf("%s\n", figures.table().c_str());
+  all.append(figures);
+}
+
 void run(const fs::path& folder, int runs) {
   constexpr int kAssociationRuns = 20;  // enough: each has a thousand matches
   fs::create_directories(folder);
   Figures figures;
-  for (const Mode& mode : modes()) {
-    const ConsistencyCourse course = monte_carlo(mode.options, runs);
-    write_course(folder / (std::string("nees_") + mode.name + ".csv"), mode.options, course);
-    summarise(course, mode.name, figures);
-  }
-  std::fputs(figures.table().c_str(), stdout);
+  run_modes(modes(), runs, folder, figures);
+  run_modes(rig_error_modes(), runs, folder, figures);
   Figures association;
   run_association(std::min(runs, kAssociationRuns), association);
-  std::printf("\n%s", association.table().c_str());
+  std::fputs(association.table().c_str(), stdout);
   figures.append(association);
   figures.write_summary(folder);
 }

@@ -57,6 +57,42 @@ TEST(PoseConsistency, LandmarksThatStartAsIndependentAreOverconfident) {
   EXPECT_GT(figures_of(monte_carlo(options, kRuns)).pose_nees, 7.5);
 }
 
+/// 30 % wrong matches, told from the right ones as slam does it.
+TEST(PoseConsistency, AverageNeesIsInsideItsBandWithWrongMatchesAsWell) {
+  RunOptions options;
+  options.validation = Validation::kHohctThenEach;
+  options.wrong.share = 0.3;
+  EXPECT_GE(figures_of(monte_carlo(options, kRuns)).pose_in_band, 0.9);
+}
+
+RunOptions with_error_of_T_SF(double sigma_p, double sigma_theta, double time) {
+  RunOptions options;
+  options.world.wearer_sigma_p = sigma_p;
+  options.world.wearer_sigma_theta = sigma_theta;
+  options.world.wearer_error_time = time;
+  return options;
+}
+
+/// 5 cm and 2 degrees, new in every frame.
+TEST(PoseConsistency, AWideErrorOfTheFreeCamerasPoseIsConsistentAndSmallerAsAState) {
+  RunOptions options = with_error_of_T_SF(0.05, 0.035, 0.0);
+  const ConsistencyCourse as_noise = monte_carlo(options, kRuns);
+  options.filter.rig_error.is_state = true;
+  options.filter.max_iterations = 4;
+  const ConsistencyCourse as_state = monte_carlo(options, kRuns);
+  EXPECT_LT(figures_of(as_noise).pose_in_band, 0.8);
+  EXPECT_GE(figures_of(as_state).pose_in_band, 0.9);
+  EXPECT_LT(mean_final_error(as_state), 0.85 * mean_final_error(as_noise));
+}
+
+/// 2 cm and 0.3 degrees that wander within 3 s: as noise each frame counts as new evidence.
+TEST(PoseConsistency, AWanderingErrorOfTheFreeCamerasPoseIsOverconfidentUnlessItIsAState) {
+  RunOptions options = with_error_of_T_SF(0.02, 0.005, 3.0);
+  EXPECT_GT(figures_of(monte_carlo(options, kRuns)).pose_nees, 12.0);
+  options.filter.rig_error = {true, 3.0, 0.0};
+  EXPECT_LT(figures_of(monte_carlo(options, kRuns)).pose_nees, 7.0);
+}
+
 TEST(PoseConsistency, SameSeedIsTheSameRun) {
   ConsistencyRun a(7, {});
   ConsistencyRun b(7, {});

@@ -34,3 +34,32 @@ do for [mode in 'collaborative points paper'] {
        '' skip 1 using 1:6 with lines lw 1.5 lc rgb gray title 'all together'
 }
 unset multiplot
+
+set output 'rig_error.png'
+set terminal pngcairo size 1100,560 font 'sans,10'
+set multiplot layout 2,3 title 'Pose of Cf known with 5 cm and 2°: average pose NEES of 50 runs (6 expected; lines: its 95 % band)'
+set yrange [0:30]
+do for [error in 'wide wide_3s'] {
+  do for [treatment in 'points pixels state_iterated'] {
+    set title (error eq 'wide' ? 'new in every frame, ' : 'wanders within 3 s, ').treatment noenhanced
+    plot 'nees_'.error.'_'.treatment.'.csv' skip 1 using 1:2 with lines lw 2 lc rgb blue title 'pose', \
+         '' skip 1 using 1:3 with lines lw 1.5 lc rgb green title 'position (3 expected)', \
+         5.08 with lines dt 2 lc rgb gray notitle, 7.00 with lines dt 2 lc rgb gray notitle
+  }
+}
+unset multiplot
+
+set output 'association.png'
+set terminal pngcairo size 1100,380 font 'sans,10'
+set multiplot layout 1,2 title '30 % wrong matches, gates and joint compatibility on, 50 runs'
+set title 'average NEES'
+set yrange [0:20]
+plot 'nees_real_association.csv' skip 1 using 1:2 with lines lw 2 lc rgb blue title 'pose (6 expected)', \
+     '' skip 1 using 1:3 with lines lw 1.5 lc rgb green title 'position (3 expected)', \
+     5.08 with lines dt 2 lc rgb gray notitle, 7.00 with lines dt 2 lc rgb gray notitle
+set title 'normalised innovations squared a row (gated: under 1)'
+set yrange [0.5:1.5]
+plot 'nees_real_association.csv' skip 1 using 1:4 with lines lw 1.5 lc rgb blue title 'pixels of Cs', \
+     '' skip 1 using 1:($5 > 0 ? $5 : NaN) with lines lw 1.5 lc rgb red title 'by the wearer', \
+     '' skip 1 using 1:6 with lines lw 1.5 lc rgb gray title 'all together'
+unset multiplot
