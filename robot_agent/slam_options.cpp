@@ -55,6 +55,8 @@ slam::PseudoStereoOptions read_pseudo_stereo(const ConfigNode& node) {
                   {{"pixel", slam::WornMeasurement::kPixel}, {"point", slam::WornMeasurement::kPoint}});
   o.correlated_updates = node.boolean("correlated_updates", o.correlated_updates);
   o.correlated_starts = node.boolean("correlated_starts", o.correlated_starts);
+  o.pose_error_is_state = node.boolean("pose_error_is_state", o.pose_error_is_state);
+  o.pose_error_time_s = node.number("pose_error_time_s", o.pose_error_time_s, 0.0, 3600.0);
   o.max_new_landmarks = node.integer("max_new_landmarks", o.max_new_landmarks, 0, 500);
   o.max_new_tries = node.integer("max_new_tries", o.max_new_tries, 0, 500);
   o.refine_wearer_pose = node.boolean("refine_wearer_pose", o.refine_wearer_pose);

@@ -26,6 +26,8 @@ ekf::FilterOptions filter_options(const SlamOptions& options) {
   result.max_iterations = options.search.max_iterations;
   result.gate_probability = options.search.gate_probability;
   result.correlated_wearer_pose = options.pseudo_stereo.correlated_updates;
+  result.rig_error = {.is_state = options.pseudo_stereo.pose_error_is_state,
+                      .correlation_time = options.pseudo_stereo.pose_error_time_s};
   return result;
 }
 
@@ -346,8 +348,10 @@ int CollaborativeSlam::add_pseudo_stereo(const GrayImage& image, const StereoVie
                                          PseudoStereoCounts& counts) {
   const auto points =
       wearer_matcher_.new_points(view, image, matches, tracks_.found_pixels(), budget, counts);
-  return start_landmarks(points, view.rig, image, options_.pseudo_stereo.correlated_starts, filter_, tracks_,
-                         counts);
+  const bool as_state =
+      options_.pseudo_stereo.pose_error_is_state;  // the matches correct the sensors' pose once
+  return start_landmarks(points, as_state ? view.sensed_rig() : view.rig, image,
+                         as_state || options_.pseudo_stereo.correlated_starts, filter_, tracks_, counts);
 }
 
 void CollaborativeSlam::renew_references(const GrayImage& image) {

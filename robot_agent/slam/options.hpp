@@ -80,8 +80,12 @@ struct PseudoStereoOptions {
   /// The same for the landmarks that start in one frame. Off: a scale that hangs on one uncertain pose alone
   /// is the direction in which an EKF drifts (docs/decisions/0005).
   bool correlated_starts = false;
-  int max_new_landmarks = 12;  ///< started from one frame
-  int max_new_tries = 6;       ///< corners tried for them in a frame: the budget of time
+  /// The error of Cf's pose in the filter's state: measured pixels and new landmarks correct it and share it,
+  /// whatever the two options above say. Off: noise.
+  bool pose_error_is_state = false;
+  double pose_error_time_s = 0.0;  ///< its correlation time as a state [s]; 0: new in every frame
+  int max_new_landmarks = 12;      ///< started from one frame
+  int max_new_tries = 6;           ///< corners tried for them in a frame: the budget of time
   /// The pose of Cf is estimated from the matches as well, the sensors' pose being the prior; off: it is
   /// taken as the sensors give it (the paper).
   bool refine_wearer_pose = true;
