@@ -12,6 +12,8 @@ class PriorFactor final : public ceres::CostFunction {
   /// `prior` must outlive the factor.
   explicit PriorFactor(const Prior& prior);
 
+  const Prior& prior() const { return prior_; }
+
   bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override;
 
  private:

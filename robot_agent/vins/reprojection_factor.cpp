@@ -25,6 +25,13 @@ Vector3d bearing_rate(const Sighting& s, double offset) {
   return normalisation(v) * Vector3d(-s.velocity.x(), -s.velocity.y(), 0.0);
 }
 
+/// A [v]x: each row a becomes a x v.
+Matrix23 times_skew(const Matrix23& A, const Vector3d& v) {
+  Matrix23 out;
+  out << A.row(0).cross(v.transpose()), A.row(1).cross(v.transpose());
+  return out;
+}
+
 void fill_pose(double* jacobian, const Matrix23& d_p, const Matrix23& d_theta) {
   Eigen::Map<PoseJacobian> J(jacobian);
   J.leftCols<3>() = d_p;
@@ -56,7 +63,10 @@ bool HostFactor::Evaluate(double const* const* parameters, double* residuals, do
 }
 
 ReprojectionFactor::ReprojectionFactor(const Sighting& first, const Sighting& now, double sqrt_information)
-    : first_(first), now_(now), weighted_tangent_(sqrt_information * tangent_basis(now.bearing(0.0))) {}
+    : first_(first),
+      now_(now),
+      first_tangent_(tangent_basis(first.bearing(0.0))),
+      weighted_tangent_(sqrt_information * tangent_basis(now.bearing(0.0))) {}
 
 bool ReprojectionFactor::Evaluate(double const* const* parameters, double* residuals,
                                   double** jacobians) const {
@@ -69,30 +79,31 @@ bool ReprojectionFactor::Evaluate(double const* const* parameters, double* resid
   const Matrix3d R_i = T_WBi.q.toRotationMatrix();
   const Matrix3d R_j = T_WBj.q.toRotationMatrix();
   const Matrix3d R_BS = T_BS.q.toRotationMatrix();
-  const Matrix23 tangent_i = tangent_basis(first_.bearing(0.0));
-  const Vector3d ray_i =
-      first_.bearing(offset) + tangent_i.transpose() * Eigen::Map<const Eigen::Vector2d>(parameters[3] + 1);
+  const Vector3d ray_i = first_.bearing(offset) +
+                         first_tangent_.transpose() * Eigen::Map<const Eigen::Vector2d>(parameters[3] + 1);
   const Vector3d f_i = ray_i.normalized();
   const Vector3d h_Bi = R_BS * f_i + lambda * T_BS.p;
   const Vector3d h_Bj = R_j.transpose() * (R_i * h_Bi + lambda * (T_WBi.p - T_WBj.p));
   const Vector3d h_Sj = R_BS.transpose() * (h_Bj - lambda * T_BS.p);
-  Eigen::Map<Eigen::Vector2d>(residuals).noalias() =
-      weighted_tangent_ * (h_Sj.normalized() - now_.bearing(offset));
+  const double norm = h_Sj.norm();
+  const Vector3d f_h = h_Sj / norm;
+  Eigen::Map<Eigen::Vector2d>(residuals).noalias() = weighted_tangent_ * (f_h - now_.bearing(offset));
   if (jacobians == nullptr) return true;
 
-  const Matrix23 d_h = weighted_tangent_ * normalisation(h_Sj);  // d r / d h_Sj
-  const Matrix23 d_Bj = d_h * R_BS.transpose();                  // d r / d h_Bj
+  const Matrix23 d_h =
+      (weighted_tangent_ - (weighted_tangent_ * f_h) * f_h.transpose()) / norm;  // d r / d h_Sj
+  const Matrix23 d_Bj = d_h * R_BS.transpose();                                  // d r / d h_Bj
   const Matrix23 d_W = d_Bj * R_j.transpose();
   const Matrix23 d_Bi = d_W * R_i;
-  if (jacobians[0] != nullptr) fill_pose(jacobians[0], lambda * d_W, -d_Bi * skew(h_Bi));
-  if (jacobians[1] != nullptr) fill_pose(jacobians[1], -lambda * d_W, d_Bj * skew(h_Bj));
+  if (jacobians[0] != nullptr) fill_pose(jacobians[0], lambda * d_W, -times_skew(d_Bi, h_Bi));
+  if (jacobians[1] != nullptr) fill_pose(jacobians[1], -lambda * d_W, times_skew(d_Bj, h_Bj));
   if (jacobians[2] != nullptr) {
-    fill_pose(jacobians[2], lambda * (d_Bi - d_Bj), d_h * skew(h_Sj) - d_Bi * R_BS * skew(f_i));
+    fill_pose(jacobians[2], lambda * (d_Bi - d_Bj), times_skew(d_h, h_Sj) - times_skew(d_Bi * R_BS, f_i));
   }
   if (jacobians[3] != nullptr) {
     Eigen::Map<Eigen::Matrix<double, 2, 3, Eigen::RowMajor>> J(jacobians[3]);
     J.col(0) = d_Bi * T_BS.p + d_W * (T_WBi.p - T_WBj.p) - d_Bj * T_BS.p;
-    J.rightCols<2>() = d_Bi * R_BS * normalisation(ray_i) * tangent_i.transpose();
+    J.rightCols<2>() = d_Bi * R_BS * normalisation(ray_i) * first_tangent_.transpose();
   }
   if (jacobians[4] != nullptr) {
     Eigen::Map<Eigen::Vector2d>(jacobians[4]).noalias() =

@@ -45,6 +45,7 @@ class ReprojectionFactor final : public ceres::SizedCostFunction<2, 7, 7, 7, 3, 
 
  private:
   Sighting first_, now_;
+  Eigen::Matrix<double, 2, 3> first_tangent_;     ///< of the first sighting
   Eigen::Matrix<double, 2, 3> weighted_tangent_;  ///< sqrt_information * [b1 b2]^T
 };
 
