@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "robot_agent/locator_plan.hpp"
+#include "robot_agent/vins_plan.hpp"
 #include "shared/recording/recording_error.hpp"
 
 namespace cosight::robot {
@@ -35,12 +36,11 @@ OfflineRun::OfflineRun(const RobotOptions& options, const outbox::RunDescription
       input_(with_recorded_camera(prepare_input(options.input, Agent::kRobot, stop), reader_)),
       inbox_(inbox::with_camera(options.inbox, input_.camera), [this] { return arrival_; }),
       intake_(inbox_, plan_locator(options, input_)),
+      vins_plan_(plan_vins(options, input_)),
       record_(outbox::RunFolder(options.run_dir), description) {
   if (has_slam(options.estimators)) slam_.emplace(input_.camera, options.slam, input_.known_points);
-  if (has_vins(options.estimators)) {
-    vins::VinsThreadOptions vins = options.vins;
-    vins.never_drop = true;  // so that nothing depends on how fast it is
-    vins_.emplace(vins, input_, record_.folder(), nullptr);
+  if (vins_plan_) {
+    vins_.emplace(*vins_plan_, input_.camera, *input_.T_BS, record_.folder(), nullptr);
     intake_.feed(*vins_, options.estimators);
   }
 }

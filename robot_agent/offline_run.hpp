@@ -48,6 +48,7 @@ class OfflineRun {
   inbox::Inbox inbox_;
   Intake intake_;
   std::optional<slam::CollaborativeSlam> slam_;  ///< none when VINS runs alone
+  std::optional<vins::VinsThreadOptions> vins_plan_;
   outbox::RunRecord record_;
   std::optional<VinsBackEnd> vins_;
   outbox::StatusText status_;

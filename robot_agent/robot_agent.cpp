@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "robot_agent/locator_plan.hpp"
+#include "robot_agent/vins_plan.hpp"
 #include "shared/transport/robot_topic_source.hpp"
 
 namespace cosight::robot {
@@ -33,13 +34,6 @@ AgentInput with_received_camera(AgentInput input, const RobotOptions& options,
   return input;
 }
 
-/// What is read from files can wait until VINS is done with it; what is live, or pretends to be, can't.
-vins::VinsThreadOptions with_patience(const RobotOptions& options) {
-  vins::VinsThreadOptions vins = options.vins;
-  vins.never_drop = !options.input.topics && options.input.device.empty() && options.replay.rate <= 0.0;
-  return vins;
-}
-
 Stamp steady_now() {
   return std::chrono::steady_clock::now().time_since_epoch().count();
 }
@@ -55,6 +49,7 @@ RobotAgent::RobotAgent(const RobotOptions& options, const outbox::RunDescription
                                   stop)),
       inbox_(inbox::with_camera(options.inbox, input_.camera)),
       intake_(inbox_, participant_, plan_locator(options, input_)),
+      vins_plan_(plan_vins(options, input_)),
       record_(outbox::RunFolder(options.run_dir), description),
       publisher_(participant_),
       presence_(participant_, transport::topics::kRobotHeartbeat, options.agent_id),
@@ -63,8 +58,8 @@ RobotAgent::RobotAgent(const RobotOptions& options, const outbox::RunDescription
     slam_.emplace(input_.camera, options.slam, input_.known_points, steady_now);
     wearer_.emplace(participant_, inbox_, intake_, !input_.has_wearer_pose && intake_.takes_tracked_poses());
   }
-  if (has_vins(options.estimators)) {
-    vins_.emplace(with_patience(options), input_, record_.folder(), &participant_);
+  if (vins_plan_) {
+    vins_.emplace(*vins_plan_, input_.camera, *input_.T_BS, record_.folder(), &participant_);
     intake_.feed(*vins_, options.estimators);
   }
   spdlog::info("robot '{}' on domain {}: {}", options.agent_id, options.dds.domain, sensors_.description());

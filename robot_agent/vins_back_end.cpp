@@ -6,12 +6,12 @@
 
 namespace cosight::robot {
 
-VinsBackEnd::VinsBackEnd(const vins::VinsThreadOptions& options, const AgentInput& input,
+VinsBackEnd::VinsBackEnd(const vins::VinsThreadOptions& options, const CameraModel& camera, const Pose& T_BS,
                          const std::filesystem::path& run_folder, const transport::Participant* participant)
-    : camera_(input.camera),
-      options_(for_input(options, input)),
+    : camera_(camera),
+      options_(options),
       record_(run_folder),
-      thread_(options_, input.camera, *input.T_BS,
+      thread_(options, camera, T_BS,
               [this](const auto& estimate, const auto& window) { take(estimate, window); }) {
   if (participant != nullptr) publisher_.emplace(*participant, transport::topics::kRobotVinsOdometry);
 }

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "robot_agent/vins_options.hpp"
 #include "robot_agent/vins_record.hpp"
+#include "shared/dataset/sample.hpp"
 #include "shared/transport/participant.hpp"
 #include "shared/transport/publisher.hpp"
 #include "shared/transport/topics.hpp"
@@ -18,8 +18,9 @@ namespace cosight::robot {
 /// robot's IMU. What it estimates goes to `vins.tum` and, live, to rt/cosight/robot/vins/odometry.
 class VinsBackEnd {
  public:
-  /// `participant`: null without DDS. Throws ConfigError, OutputError or TransportError.
-  VinsBackEnd(const vins::VinsThreadOptions& options, const AgentInput& input,
+  /// `options`: as planned for the input, see vins_plan.hpp. `participant`: null without DDS. Throws
+  /// OutputError or TransportError.
+  VinsBackEnd(const vins::VinsThreadOptions& options, const CameraModel& camera, const Pose& T_BS,
               const std::filesystem::path& run_folder, const transport::Participant* participant);
 
   void push(const ImuSample& sample);

@@ -40,17 +40,4 @@ vins::VinsThreadOptions read_vins_options(const ConfigNode& node) {
   return o;
 }
 
-vins::VinsThreadOptions for_input(vins::VinsThreadOptions options, const AgentInput& input) {
-  if (!input.has_imu) {
-    throw ConfigError("vins.enable: needs the robot's IMU; give input.imu, or a dataset with robot/imu.csv");
-  }
-  if (!input.T_BS) {
-    throw ConfigError(
-        "vins.enable: needs to know where the camera sits; add T_BC (the camera in the IMU's body, 4x4) to "
-        "its calibration");
-  }
-  options.vins.window.solver.graph.trust.focal_length = 0.5 * (input.camera.fx + input.camera.fy);
-  return options;
-}
-
 }  // namespace cosight::robot

@@ -1,9 +1,7 @@
 // A real flight: Vicon truth, a 20 Hz camera and a 200 Hz IMU (euroc_v101_flight).
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -15,35 +13,10 @@
 #include "shared/evaluation/evaluation.hpp"
 #include "shared/evaluation/trajectory_reader.hpp"
 #include "shared/image/image_codec.hpp"
+#include "tests/robot_agent/vins/flight_data.hpp"
 
 namespace cosight::vins {
 namespace {
-
-std::filesystem::path flight() {
-  const char* const given = std::getenv("COSIGHT_DATA");
-  const std::filesystem::path data =
-      given != nullptr ? given : std::filesystem::path(COSIGHT_SOURCE_DIR) / "../shared/data";
-  return data / "euroc_v101_flight";
-}
-
-std::vector<ImuSample> read_imu(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  std::vector<ImuSample> samples;
-  std::string line;
-  std::getline(stream, line);
-  while (std::getline(stream, line)) {
-    std::replace(line.begin(), line.end(), ',', ' ');
-    std::istringstream fields(line);
-    ImuSample sample;
-    fields >> sample.stamp;
-    for (int i = 0; i < 3; ++i)
-      fields >> sample.angular_velocity_B(i);
-    for (int i = 0; i < 3; ++i)
-      fields >> sample.acceleration_B(i);
-    samples.push_back(sample);
-  }
-  return samples;
-}
 
 std::vector<std::pair<Stamp, std::string>> read_images(const std::filesystem::path& file) {
   std::ifstream stream(file);
@@ -65,7 +38,7 @@ std::vector<std::pair<Stamp, std::string>> read_images(const std::filesystem::pa
 
 VinsOptions euroc_options() {
   VinsOptions options;
-  options.noise = {2.0e-3, 1.6968e-4, 3.0e-3, 1.9393e-5};
+  options.noise = flight_noise();
   options.window.solver.graph.trust.pixel_noise = 0.3;
   return options;
 }
@@ -75,7 +48,7 @@ TEST(RealFlight, InitialisesWithinTwoSecondsAndStaysWithinThreeCentimetres) {
   const CameraModel camera = load_camera_model(flight() / "calib.yaml");
   const Pose T_BS = load_body_extrinsics(flight() / "calib.yaml").value();
   AdaptiveVins vins(euroc_options(), T_BS);
-  for (const ImuSample& sample : read_imu(flight() / "imu.csv"))
+  for (const ImuSample& sample : flight_imu())
     vins.add_imu(sample);
   FeatureTracker tracker(camera, {});
   const auto images = read_images(flight() / "cam0.csv");
