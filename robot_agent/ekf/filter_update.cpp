@@ -140,10 +140,10 @@ void Filter::set_wearer(const StereoRig* rig) {
   if (rig == nullptr) return;
   const CorrectedRig corrected = correct_rig(rig->T_SF, options_.rig_error, rig_error());
   wearer_ = Wearer{{rig->camera_F, corrected.T_SF}, corrected};
-  if (!rig->T_SF_guess || options_.rig_error.is_state) return;
-  wearer_->model.T_SF = *rig->T_SF_guess;
-  wearer_->guess << rig->T_SF_guess->p - corrected.T_SF.p,
-      quaternion_log(rig->T_SF_guess->q * corrected.T_SF.q.conjugate());
+  if (!rig->has_guess || options_.rig_error.is_state) return;
+  wearer_->model.T_SF = rig->T_SF_guess;
+  wearer_->guess << rig->T_SF_guess.p - corrected.T_SF.p,
+      quaternion_log(rig->T_SF_guess.q * corrected.T_SF.q.conjugate());
 }
 
 void Filter::collect(std::span<const Measurement> measurements, const StereoRig* wearer) {

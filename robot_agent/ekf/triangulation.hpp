@@ -38,7 +38,8 @@ struct StereoRig {
   double sigma_pixel_S = 1.0;  ///< [px]
   double sigma_pixel_F = 1.0;  ///< [px]
   /// A better guess of where Cf is, to linearise its pixels at; what is known of it stays `T_SF`.
-  std::optional<Pose> T_SF_guess = std::nullopt;
+  bool has_guess = false;
+  Pose T_SF_guess = {};
 };
 
 /// A match as a point of S, with its dependence on the eleven uncertain inputs (C section 3.2): the pixels in

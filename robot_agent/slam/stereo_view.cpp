@@ -8,6 +8,7 @@ namespace cosight::slam {
 ekf::StereoRig StereoView::sensed_rig() const {
   ekf::StereoRig sensed = rig;
   sensed.T_SF = sensed_T_SF;
+  sensed.has_guess = true;
   sensed.T_SF_guess = rig.T_SF.T;
   return sensed;
 }

@@ -41,6 +41,7 @@ TEST_F(WearerGuess, LeavesTheStepFromTheMeanInTheInnovation) {
   const Eigen::Matrix<double, 6, 1> error{0.05, -0.03, 0.04, 0.02, -0.03, 0.01};
   const Pose truth = stepped(sensed_.T_SF.T, error);
   StereoRig guessed = sensed_;
+  guessed.has_guess = true;
   guessed.T_SF_guess = truth;
   constexpr double kStep = 1e-6;
   const Eigen::Vector2d derivative =
@@ -50,6 +51,7 @@ TEST_F(WearerGuess, LeavesTheStepFromTheMeanInTheInnovation) {
 
 TEST_F(WearerGuess, ChangesNothingWhereItIsTheMean) {
   StereoRig guessed = sensed_;
+  guessed.has_guess = true;
   guessed.T_SF_guess = sensed_.T_SF.T;
   const Eigen::Vector2d pixel = seen_from(sensed_.T_SF.T) + Eigen::Vector2d(3.0, -2.0);
   EXPECT_EQ(innovation(pixel, guessed), innovation(pixel, sensed_));
