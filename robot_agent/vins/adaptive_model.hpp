@@ -49,7 +49,9 @@ struct TrustOptions {
   double scale = 0.02;                    ///< s of V26
   double geometry_scale = 0.2;            ///< s of V26 without N; the paper gives none
   double huber_scale = 0.02;              ///< M_s of V30 [standard deviations]
-  double misfit_width = 4.0;  ///< guarded: misfit up to which nothing is taken off, in typical ones
+  double misfit_width = 4.0;   ///< guarded: misfit up to which nothing is taken off, in typical ones
+  double many_bend_on = 0.35;  ///< guarded: share of features with more than that from which it acts
+  double many_bend_off = 0.2;  ///< and under which it rests again
 };
 
 /// What is known of a feature when its sightings are weighed.
@@ -72,6 +74,10 @@ double geometry_factor(const std::vector<Eigen::Vector3d>& directions);
 /// the same for all features of a frame and so can only move that balance, is left out; so is N, which says
 /// little once a feature has been seen often enough to be used: a vehicle may be followed for long. That its
 /// sightings bend away from every static point, its misfit tells.
+///
+/// It acts only while many features bend (watch_for_movers()); a misfit that is not known, zero, weighs 1.
+/// With few movers the fixed mode's kernel does enough, and the guarded mode is the fixed one to the last
+/// bit.
 double guarded_weight(const TrustOptions& options, const FeatureRecord& feature);
 
 /// How much a sighting of this feature counts.

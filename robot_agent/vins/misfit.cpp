@@ -40,4 +40,18 @@ void measure_misfits(Window& window, std::size_t min_observations) {
   window.typical_misfit = *middle;
 }
 
+void watch_for_movers(Window& window, const TrustOptions& options) {
+  constexpr int kMinKnown = 10;
+  int known = 0;
+  int bent = 0;
+  for (const auto& [id, landmark] : window.landmarks) {
+    if (landmark.misfit <= 0.0) continue;
+    ++known;
+    if (landmark.misfit > options.misfit_width * window.typical_misfit) ++bent;
+  }
+  if (known < kMinKnown) return;
+  const double share = static_cast<double>(bent) / known;
+  window.many_bend = share > (window.many_bend ? options.many_bend_off : options.many_bend_on);
+}
+
 }  // namespace cosight::vins

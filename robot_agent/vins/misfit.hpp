@@ -1,5 +1,6 @@
 #pragma once
 
+#include "robot_agent/vins/adaptive_model.hpp"
 #include "robot_agent/vins/window.hpp"
 
 namespace cosight::vins {
@@ -11,5 +12,10 @@ namespace cosight::vins {
 /// Fills in Landmark::misfit and Window::typical_misfit, their median. A point on a moving vehicle bends away
 /// from every static explanation; the median is the noise of the static majority, whatever the camera.
 void measure_misfits(Window& window, std::size_t min_observations);
+
+/// Whether so many landmarks bend away that the guarded mode has to act: sets Window::many_bend when the
+/// share of landmarks whose misfit is above `misfit_width` typical ones goes over `many_bend_on`, and takes
+/// it back when it falls under `many_bend_off`. Needs measure_misfits().
+void watch_for_movers(Window& window, const TrustOptions& options);
 
 }  // namespace cosight::vins

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <map>
 #include <utility>
+#include <vector>
 
 #include "robot_agent/vins/marginalisation.hpp"
 #include "robot_agent/vins/parameter_blocks.hpp"
@@ -19,11 +22,13 @@ bool is_tracked(const Landmark& landmark, FrameId newest) {
   return !landmark.observations.empty() && landmark.observations.back().frame == newest;
 }
 
-/// The landmark gets its next observation's frame as host; its depth moves along.
-void lose_host(Landmark& landmark, const Window& window) {
+/// The landmark goes on without its first `count` sightings, from the next one's frame; its depth moves
+/// along.
+void lose_first(Landmark& landmark, std::size_t count, const Window& window) {
   const Pose T_WS_old = window.T_WS(window.slot(landmark.observations.front().frame));
   const Eigen::Vector3d ray = window.ray(landmark);
-  landmark.observations.erase(landmark.observations.begin());
+  landmark.observations.erase(landmark.observations.begin(),
+                              landmark.observations.begin() + static_cast<std::ptrdiff_t>(count));
   if (!landmark.has_depth || landmark.observations.empty()) return;
   const Pose T_WS_new = window.T_WS(window.slot(landmark.observations.front().frame));
   // Times lambda, as in the reprojection factor.
@@ -35,15 +40,46 @@ void lose_host(Landmark& landmark, const Window& window) {
   landmark.beside = tangent_basis(seen) * (h / h.dot(seen));
 }
 
+/// How many of its sightings a landmark gives away when its host goes. One that is followed on keeps enough
+/// to stay in use; how many differs from landmark to landmark, so that not all lose their baselines at once.
+std::size_t given_away(FeatureId id, const Landmark& landmark, FrameId newest) {
+  constexpr std::size_t kLeast = 2;
+  const std::size_t count = landmark.observations.size();
+  if (!is_tracked(landmark, newest)) return count;
+  if (count < 2 * kLeast) return 1;
+  const std::uint32_t scattered = static_cast<std::uint32_t>(id) * 2654435761U >> 7U;  // Knuth's hash
+  return kLeast + scattered % (count - 2 * kLeast + 1);
+}
+
+/// What the landmarks of the oldest frame keep for themselves when it goes; taken out of the window. A
+/// sighting is either in the prior or still in the window, never in both: it would count twice, and the
+/// window would believe its shape too much.
+std::map<FeatureId, std::vector<Observation>> set_aside(Window& window) {
+  const FrameId oldest = window.frames.front().id;
+  const FrameId newest = window.frames.back().id;
+  std::map<FeatureId, std::vector<Observation>> kept;
+  for (auto& [id, landmark] : window.landmarks) {
+    if (landmark.observations.front().frame != oldest) continue;
+    const auto first_kept =
+        landmark.observations.begin() + static_cast<std::ptrdiff_t>(given_away(id, landmark, newest));
+    kept.emplace(id, std::vector<Observation>(first_kept, landmark.observations.end()));
+    landmark.observations.erase(first_kept, landmark.observations.end());
+  }
+  return kept;
+}
+
 void erase_unseen(Window& window) {
   std::erase_if(window.landmarks, [](const auto& entry) { return entry.second.observations.empty(); });
 }
 
 void slide_oldest(Window& window, const GraphOptions& options) {
+  const auto kept = set_aside(window);
   window.prior = marginalise_oldest(window, options);
-  const FrameId oldest = window.frames.front().id;
-  for (auto& [id, landmark] : window.landmarks) {
-    if (landmark.observations.front().frame == oldest) lose_host(landmark, window);
+  for (const auto& [id, observations] : kept) {
+    Landmark& landmark = window.landmarks.at(id);
+    const std::size_t given = landmark.observations.size();
+    landmark.observations.insert(landmark.observations.end(), observations.begin(), observations.end());
+    lose_first(landmark, given, window);
   }
   window.frames.pop_front();
   window.frames.front().imu.reset();
@@ -56,7 +92,7 @@ void slide_second_newest(Window& window, const GraphOptions& options) {
   window.prior = marginalise_frame(window, options, gone);
   for (auto& [id, landmark] : window.landmarks) {
     if (landmark.observations.front().frame == gone) {
-      lose_host(landmark, window);
+      lose_first(landmark, 1, window);
     } else {
       std::erase_if(landmark.observations, [gone](const Observation& seen) { return seen.frame == gone; });
     }

@@ -37,20 +37,19 @@ double outlier_percent(const TrackSequence& sequence) {
   return 100.0 * outliers / std::max(all, 1);
 }
 
-TrackMetrics measure(const TrackSequence& sequence, const Trajectory& estimate) {
+void measure(const TrackSequence& sequence, TrackRun& run) {
   constexpr double kFramesPerSecond = 10.0;
   constexpr Stamp kSameInstant = 1'000'000;
-  const std::vector<PosePair> pairs = associate(estimate, sequence.truth, kSameInstant);
-  const ErrorStatistics second =
-      statistics_of(relative_errors(pairs, {.delta = kFramesPerSecond}).translation);
-  TrackMetrics metrics;
+  const std::vector<PosePair> pairs = associate(run.estimate, sequence.truth, kSameInstant);
+  run.rpe = relative_errors(pairs, {.delta = kFramesPerSecond}).translation;
+  const ErrorStatistics second = statistics_of(run.rpe);
+  TrackMetrics& metrics = run.metrics;
   metrics.rpe_mean = second.mean;
   metrics.rpe_std = std::sqrt(std::max(0.0, second.rmse * second.rmse - second.mean * second.mean));
   metrics.rpe_max = second.max;
   metrics.rpe_frame_mean = statistics_of(relative_errors(pairs, {.delta = 1.0}).translation).mean;
   metrics.drift_percent = 100.0 * position_errors(pairs).back() / true_path_length(pairs);
   metrics.outlier_percent = outlier_percent(sequence);
-  return metrics;
 }
 
 }  // namespace
@@ -79,7 +78,7 @@ TrackRun run_tracks(const TrackSequence& sequence, const TrackRunOptions& option
     marginalise_ms.push_back(report.marginalise_ms);
     run.reports.push_back(report);
   }
-  run.metrics = measure(sequence, run.estimate);
+  measure(sequence, run);
   run.solve_ms_median = quantile(solve_ms, 0.5);
   run.solve_ms_p99 = quantile(solve_ms, 0.99);
   run.marginalise_ms_median = quantile(marginalise_ms, 0.5);

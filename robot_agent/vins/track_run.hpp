@@ -35,6 +35,7 @@ struct TrackMetrics {
 struct TrackRun {
   Trajectory estimate;  ///< T_WB, from the first frame on
   std::vector<WindowReport> reports;
+  std::vector<double> rpe;  ///< of each second [m]
   TrackMetrics metrics;
   double solve_ms_median = 0.0;
   double solve_ms_p99 = 0.0;

@@ -61,6 +61,7 @@ struct Window {
   Pose T_BS;                    ///< camera in the body
   double time_offset = 0.0;     ///< image stamp + time_offset is the IMU's clock [s]
   double typical_misfit = 0.0;  ///< median over the landmarks [rad]; zero: not known
+  bool many_bend = false;       ///< see watch_for_movers()
   Prior prior;
 
   std::size_t slot(FrameId id) const;  ///< position in `frames` of a frame that is there

@@ -27,6 +27,13 @@ int count_tracked(const Window& window, const FeatureFrame& frame) {
                     [&](const auto& feature) { return window.landmarks.at(feature.id).times_tracked > 1; }));
 }
 
+double mean_times_tracked(const Window& window, const FeatureFrame& frame) {
+  double sum = 0.0;
+  for (const TrackedFeature& feature : frame.features)
+    sum += window.landmarks.at(feature.id).times_tracked;
+  return frame.features.empty() ? 0.0 : sum / static_cast<double>(frame.features.size());
+}
+
 }  // namespace
 
 void WindowOdometry::start(const FeatureFrame& frame, const NavState& state,
@@ -67,11 +74,15 @@ WindowReport WindowOdometry::process(const FeatureFrame& frame, std::vector<ImuS
   triangulate_all(window_, graph.min_observations, options_.default_distance);
   update_geometry_factors(window_);
   measure_misfits(window_, graph.min_observations);
+  watch_for_movers(window_, graph.trust);
   const Stopwatch solve_time;
   report.solve = solve(window_, options_.solver);
   report.solve_ms = solve_time.ms();
   report.state = window_.frames.back().state;
   report.geometry_factor = window_.frames.back().geometry_factor;
+  report.typical_misfit = window_.typical_misfit;
+  report.many_bend = window_.many_bend;
+  report.mean_times_tracked = mean_times_tracked(window_, frame);
 
   report.landmarks_dropped = drop_failed_landmarks(window_, options_);
   const Stopwatch marginalise_time;

@@ -14,8 +14,11 @@ struct WindowReport {
   SolveReport solve = {};
   bool keyframe = false;  ///< the second newest frame was kept
   double geometry_factor = 0.0;
-  int tracked = 0;            ///< features of this frame that were seen before
-  int landmarks_dropped = 0;  ///< came to lie behind their host
+  double mean_times_tracked = 0.0;  ///< N, over the frame's features
+  double typical_misfit = 0.0;      ///< see misfit.hpp [rad]
+  bool many_bend = false;           ///< the guarded mode acts; see misfit.hpp
+  int tracked = 0;                  ///< features of this frame that were seen before
+  int landmarks_dropped = 0;        ///< came to lie behind their host
   double solve_ms = 0.0;
   double marginalise_ms = 0.0;
 };

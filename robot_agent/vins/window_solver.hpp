@@ -6,7 +6,7 @@
 namespace cosight::vins {
 
 struct SolverOptions {
-  int max_iterations = 8;  ///< a bound on the time of one frame; more when frames are rare
+  int max_iterations = 5;  ///< a bound on the time of one frame; more when frames are rare
   GraphOptions graph;
 };
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "robot_agent/vins/misfit.hpp"
+
 namespace cosight::vins {
 namespace {
 
@@ -77,6 +79,31 @@ TEST(GuardedWeight, FallsWithTheFourthPowerOfWhatIsTooMuchMisfit) {
   const TrustOptions options{.mode = TrustMode::kGuarded};
   EXPECT_EQ(guarded_weight(options, {4, 0.5, options.misfit_width}), 1.0);
   EXPECT_NEAR(guarded_weight(options, {200, 0.5, 2.0 * options.misfit_width}), 1.0 / 16.0, 1e-12);
+}
+
+/// A window in which `bent` of 20 landmarks lie ten times as far off as the others.
+Window window_with(int bent) {
+  Window window;
+  window.typical_misfit = 1e-3;
+  for (FeatureId id = 0; id < 20; ++id)
+    window.landmarks[id].misfit = id < static_cast<FeatureId>(bent) ? 1e-2 : 1e-3;
+  return window;
+}
+
+TEST(WatchForMovers, ActsWhenManyBendAndRestsOnlyWhenFewDo) {
+  const TrustOptions options;
+  Window window = window_with(5);
+  watch_for_movers(window, options);
+  EXPECT_FALSE(window.many_bend) << "a quarter, from rest";
+  window = window_with(8);
+  watch_for_movers(window, options);
+  EXPECT_TRUE(window.many_bend);
+  window.landmarks = window_with(5).landmarks;
+  watch_for_movers(window, options);
+  EXPECT_TRUE(window.many_bend) << "a quarter, once it acts";
+  window.landmarks = window_with(3).landmarks;
+  watch_for_movers(window, options);
+  EXPECT_FALSE(window.many_bend);
 }
 
 }  // namespace
