@@ -1,6 +1,6 @@
 # shellcheck shell=bash
 # Records a run of the agents, and gives the recording to a robot again: by topics, or as a file. After common.sh and
-# agents.sh; set `programs`, and trap `stop_recorder; stop_agents`.
+# agents.sh; set `programs`, and trap `stop_recorder || true; stop_agents`.
 
 recorder=''
 
