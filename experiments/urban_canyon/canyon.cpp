@@ -46,6 +46,7 @@ std::vector<vins::ImuSample> measure_imu(const Route& route, const CanyonOptions
 
 CanyonOptions urban_canyon_1() {
   CanyonOptions options;
+  options.calibrated_noise = 0.25;
   options.traffic = {.ahead_share = 0.75,
                      .neighbours_per_minute = 1.0,
                      .oncoming_per_minute = 6.0,
@@ -65,6 +66,7 @@ CanyonOptions urban_canyon_2() {
                      .turning_per_minute = 3.0,
                      .crossing_per_corner = 3.0,
                      .texture = 2.5};
+  options.calibrated_noise = 0.32;
   options.front_end.noise = 0.32;
   options.front_end.noise_spread = 1.5;
   options.front_end.loss = 0.001;
@@ -90,9 +92,19 @@ CanyonDrive make_canyon_drive(const CanyonOptions& options, unsigned seed) {
     view.go_to(t);
     drive.sequence.frames.push_back({stamp, front_end.look(view)});
     drive.sequence.truth.push_back({stamp, route.T_WB(t)});
+    drive.velocities_W.push_back(route.velocity_W(t));
   }
   drive.moving_percent = front_end.moving_percent();
+  drive.moving = front_end.moving();
   return drive;
+}
+
+vins::TrackSequence without_vehicles(const CanyonDrive& drive) {
+  vins::TrackSequence sequence = drive.sequence;
+  for (vins::FeatureFrame& frame : sequence.frames) {
+    std::erase_if(frame.features, [&](const auto& feature) { return drive.moving.contains(feature.id); });
+  }
+  return sequence;
 }
 
 }  // namespace cosight::experiments

@@ -102,13 +102,15 @@ std::vector<vins::TrackedFeature> FrontEnd::look(const CityView& view) {
   for (const auto& [city_point, track] : tracks_) {
     features.push_back({track.id, {in_plane(track.seen), Vector2d::Zero()}});
     sightings_ += 1.0;
-    moving_ += city_point.moves() ? 1.0 : 0.0;
+    if (!city_point.moves()) continue;
+    moving_sightings_ += 1.0;
+    moving_.insert(track.id);
   }
   return features;
 }
 
 double FrontEnd::moving_percent() const {
-  return 100.0 * moving_ / std::max(sightings_, 1.0);
+  return 100.0 * moving_sightings_ / std::max(sightings_, 1.0);
 }
 
 }  // namespace cosight::experiments

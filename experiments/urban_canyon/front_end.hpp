@@ -2,6 +2,7 @@
 
 #include <map>
 #include <random>
+#include <set>
 #include <vector>
 
 #include "experiments/urban_canyon/city_view.hpp"
@@ -35,6 +36,8 @@ class FrontEnd {
 
   /// Share of all sightings so far that were of vehicles [%].
   double moving_percent() const;
+  /// The features that were on vehicles.
+  const std::set<vins::FeatureId>& moving() const { return moving_; }
 
  private:
   struct Track {
@@ -58,7 +61,8 @@ class FrontEnd {
   std::map<CityPoint, Track> tracks_;
   Pose T_WS_before_;
   vins::FeatureId next_id_ = 1;
-  double sightings_ = 0.0, moving_ = 0.0;
+  double sightings_ = 0.0, moving_sightings_ = 0.0;
+  std::set<vins::FeatureId> moving_;
 };
 
 }  // namespace cosight::experiments

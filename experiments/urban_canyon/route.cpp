@@ -43,7 +43,8 @@ Route::Route(double length, std::mt19937_64& random) : length_(length) {
   for (const auto& [amplitude, wavelength] : {std::pair{0.4, 170.0}, {0.05, 24.0}, {0.008, 6.5}}) {
     waves_.push_back({amplitude, 2.0 * pi / wavelength, uniform(random, 0.0, 2.0 * pi)});
   }
-  phases_.push_back({.duration = 2.0});
+  constexpr double kStartSpeed = 5.0;  // in motion: from rest, no window could know its scale yet [m/s]
+  phases_.push_back({.duration = 2.0, .v_0 = kStartSpeed, .v_1 = kStartSpeed});
   int turned = 0;
   while (phases_.back().s < length) {
     drive_street(phases_.back().s + uniform(random, 120.0, 260.0), random);
