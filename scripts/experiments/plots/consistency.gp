@@ -38,7 +38,7 @@ unset multiplot
 set output 'rig_error.png'
 set terminal pngcairo size 1100,560 font 'sans,10'
 set multiplot layout 2,3 title 'Pose of Cf known with 5 cm and 2°: average pose NEES of 50 runs (6 expected; lines: its 95 % band)'
-set yrange [0:30]
+set yrange [0:50]
 do for [error in 'wide wide_3s'] {
   do for [treatment in 'points pixels state_iterated'] {
     set title (error eq 'wide' ? 'new in every frame, ' : 'wanders within 3 s, ').treatment noenhanced
