@@ -52,6 +52,7 @@ ExitCode write(const sim::SimulatedRun& run, const Wish& wish, const std::atomic
   std::printf("%s: %zu + %zu frames, %.1f s of world in %.1f s, overlap ratio %.3f, %zu known points -> %s\n",
               run.scenario().name.c_str(), report.robot_frames, report.wearer_frames, report.duration,
               took.count(), report.overlap_ratio, report.known_points, wish.folder.c_str());
+  if (report.stopped) spdlog::warn("stopped: {} lacks pictures", wish.folder);
   if (!wish.recording.empty() && !report.stopped) recording::record_dataset(wish.folder, wish.recording);
   return report.stopped ? ExitCode::kDataLost : ExitCode::kDone;
 }

@@ -68,7 +68,9 @@ void write_truth(const SimulatedRun& run, const fs::path& folder) {
 
 std::size_t write_survey(const SimulatedRun& run, const fs::path& folder) {
   const std::vector<KnownPoint> points = run.known_points();
-  if (!points.empty()) write_known_points(folder / "robot/known_points.csv", points);
+  const fs::path file = folder / "robot/known_points.csv";
+  fs::remove(file);  // of an earlier run into the same folder: none is a dataset without a survey
+  if (!points.empty()) write_known_points(file, points);
   return points.size();
 }
 

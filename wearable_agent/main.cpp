@@ -1,3 +1,5 @@
+#include <spdlog/spdlog.h>
+
 #include <cstdio>
 
 #include "shared/program/agent_options.hpp"
@@ -20,7 +22,10 @@ ExitCode run(const ConfigFile& config, const std::atomic<bool>& stop) {
   status.clear();
   std::fputs(wearable::summary_yaml(report).c_str(), stdout);
   if (!options.summary.empty()) wearable::write_summary(options.summary, report);
-  return report.lost_data() ? ExitCode::kDataLost : ExitCode::kDone;
+  if (!report.lost_data()) return ExitCode::kDone;
+  spdlog::warn("{} frames and {} orientations could not be used, {} messages not be sent",
+               report.frames.lost(), report.orientations.lost(), report.sent.not_taken);
+  return ExitCode::kDataLost;
 }
 
 }  // namespace

@@ -111,6 +111,15 @@ TEST_F(WriteDataset, SurveysPointsThatTheFirstTruePoseProjectsToTheirPixels) {
   }
 }
 
+TEST_F(WriteDataset, LeavesNoSurveyOfAnEarlierRun) {
+  const fs::path folder = run("walk", {.seed = 1, .with_frames = false});
+  EXPECT_TRUE(fs::exists(folder / "robot/known_points.csv"));
+  Scenario scenario = short_walk();
+  scenario.known_points = 0;
+  write_dataset(scenario, {.seed = 1, .with_frames = false}, folder, stop_);
+  EXPECT_FALSE(fs::exists(folder / "robot/known_points.csv"));
+}
+
 TEST_F(WriteDataset, KeepsTheMountingOfTheCamera) {
   const fs::path folder = run("walk", {.seed = 1, .with_frames = false});
   const auto T_BC = load_body_extrinsics(folder / "robot/calibration.yaml");

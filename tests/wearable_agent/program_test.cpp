@@ -59,6 +59,7 @@ TEST(WearableProgram, EndsWithThreeWhenAFrameWasUnreadable) {
   const Ending ending = run("--dataset " + dataset.folder().string() + on_own_domain());
   EXPECT_EQ(ending.status, 3) << ending.output;
   EXPECT_THAT(ending.output, HasSubstr("unreadable: 1\n"));
+  EXPECT_THAT(ending.output, HasSubstr("1 frames and 0 orientations could not be used"));
 }
 
 TEST(WearableProgram, EndsWithOneAndASentenceWhenTheInputIsMissing) {
