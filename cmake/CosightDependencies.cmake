@@ -15,11 +15,11 @@ foreach(component core imgproc imgcodecs videoio features2d calib3d video)
     INTERFACE_SYSTEM_INCLUDE_DIRECTORIES "${OpenCV_INCLUDE_DIRS}")
 endforeach()
 
-# libpcl-dev's own config takes 5 s and links VTK and Qt; two libraries by hand are enough for files and clusters.
+# libpcl-dev's own config takes 5 s and links VTK and Qt (30 MB of every process); clustering needs no more than these.
 find_path(PCL_INCLUDE_DIR pcl/point_types.h PATH_SUFFIXES pcl-1.13 REQUIRED)
 add_library(cosight_pcl INTERFACE)
 target_include_directories(cosight_pcl SYSTEM INTERFACE ${PCL_INCLUDE_DIR})
-foreach(component common io kdtree search segmentation)
+foreach(component common kdtree search segmentation)
   find_library(PCL_${component}_LIBRARY pcl_${component} REQUIRED)
   target_link_libraries(cosight_pcl INTERFACE ${PCL_${component}_LIBRARY})
 endforeach()
