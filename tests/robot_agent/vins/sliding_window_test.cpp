@@ -72,6 +72,34 @@ TEST(WindowOdometry, KeepsItsImuWhenTheSecondNewestFrameIsDropped) {
   EXPECT_LT((last.state.T_WB.p - drive.state(5.0).T_WB.p).norm(), 0.1);
 }
 
+/// What went into the prior with the oldest frame is gone from the window; nothing else is.
+TEST(Slide, LeavesNoSightingThatThePriorHasUsed) {
+  SyntheticDrive drive(5);
+  WindowOptions options = fixed_mode();
+  WindowOdometry odometry(options, drive.noise, drive.T_BS());
+  odometry.start(drive.camera(0.0, 0.25), drive.state(0.0), {});
+  for (int i = 1; i < 10; ++i)
+    odometry.process(drive.camera(0.1 * i, 0.25), drive.imu(0.1 * i - 0.1, 0.1 * i));
+  Window window = odometry.window();
+  const FrameId oldest = window.frames.front().id;
+  const FrameId newest = window.frames.back().id;
+  int handed_over = 0;
+  const auto before = window.landmarks;
+  slide(window, true, options);
+  for (const auto& [id, landmark] : before) {
+    const std::size_t count = landmark.observations.size();
+    const bool spans_all =
+        landmark.observations.front().frame == oldest && landmark.observations.back().frame == newest;
+    if (!spans_all || count < 4) continue;
+    const auto after = window.landmarks.find(id);
+    ASSERT_NE(after, window.landmarks.end()) << "it is still followed";
+    EXPECT_LE(after->second.observations.size() + 2, count);
+    EXPECT_EQ(after->second.observations.back().frame, landmark.observations.back().frame);
+    ++handed_over;
+  }
+  EXPECT_GT(handed_over, 10);
+}
+
 TEST(DropFailedLandmarks, KeepsFarPointsWhoseNoiseIsNegative) {
   Window window;
   window.frames.push_back({});
