@@ -150,6 +150,8 @@ class Filter {
   /// Keeps an inverse-depth landmark as a point from now on (3 instead of 6 rows of P). False when rho is
   /// less than min_inverse_depth or the landmark is none.
   bool convert_to_point(LandmarkId id);
+  /// Does so with every landmark whose depth_nonlinearity is below `max_nonlinearity`. Returns how many.
+  int convert_linear_landmarks(double max_nonlinearity);
 
   // --- cloned poses ---------------------------------------------------------------------------------------
   /// Nothing when max_clones are held.

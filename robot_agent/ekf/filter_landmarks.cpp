@@ -237,4 +237,19 @@ bool Filter::convert_to_point(LandmarkId id) {
   return true;
 }
 
+int Filter::convert_linear_landmarks(double max_nonlinearity) {
+  const Eigen::Vector3d r_WS = camera().r_WS;
+  int converted = 0;
+  for (int i = 0; i < landmark_count(); ++i) {
+    const Block block = landmarks_[static_cast<std::size_t>(i)];
+    if (block.dim != Point::kDim) continue;
+    const Point y = Point::from_vector(state_.x().segment<Point::kDim>(block.offset));
+    const int rho = block.offset + Point::kRho;
+    const double sigma_rho = std::sqrt(state_.covariance<1, 1>(rho, rho).value());
+    if (!(depth_nonlinearity(y, sigma_rho, r_WS) < max_nonlinearity)) continue;
+    converted += convert_to_point(block.id) ? 1 : 0;
+  }
+  return converted;
+}
+
 }  // namespace cosight::ekf

@@ -1,6 +1,7 @@
 #include "robot_agent/ekf/inverse_depth_point.hpp"
 
 #include <cmath>
+#include <limits>
 
 namespace cosight::ekf {
 
@@ -39,6 +40,14 @@ Eigen::Vector3d InverseDepthPoint::p_W(Eigen::Matrix<double, 3, kDim>* J) const 
     J->col(kRho) = -m / (rho * rho);
   }
   return anchor_W + m / rho;
+}
+
+double depth_nonlinearity(const InverseDepthPoint& y, double sigma_rho, const Eigen::Vector3d& r_WS) {
+  if (!(y.rho > 0.0)) return std::numeric_limits<double>::infinity();
+  const Eigen::Vector3d h_1 = y.p_W() - r_WS;
+  const double d_1 = h_1.norm();
+  const double cosine = y.ray_W().dot(h_1) / d_1;
+  return 4.0 * sigma_rho / (y.rho * y.rho) / d_1 * std::abs(cosine);
 }
 
 }  // namespace cosight::ekf

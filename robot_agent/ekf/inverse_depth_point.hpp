@@ -52,4 +52,12 @@ struct InverseDepthPoint {
   Eigen::Vector3d p_W(Eigen::Matrix<double, 3, kDim>* J = nullptr) const;
 };
 
+/// How far from linear the landmark's depth is as seen from r_WS: Civera's index
+///
+///   L = 4 sigma_d / d_1 |cos alpha|,    sigma_d = sigma_rho / rho^2,
+///
+/// d_1 the distance from r_WS, alpha the parallax between anchor and r_WS. Below 0.1 a point with a Gaussian
+/// error says as much as the inverse depth does. Infinite where the point is at infinity.
+double depth_nonlinearity(const InverseDepthPoint& y, double sigma_rho, const Eigen::Vector3d& r_WS);
+
 }  // namespace cosight::ekf
