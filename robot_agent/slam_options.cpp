@@ -28,6 +28,8 @@ slam::SearchOptions read_search(const ConfigNode& node) {
   o.max_radius = node.integer("max_radius", o.max_radius, 3, 500);
   o.wide_prior_px = node.number("wide_prior_px", o.wide_prior_px, 1.0, 1000.0);
   o.max_iterations = node.integer("max_iterations", o.max_iterations, 1, 20);
+  o.min_agreeing = node.integer("min_agreeing", o.min_agreeing, 0, 500);
+  o.max_lonely_px = node.number("max_lonely_px", o.max_lonely_px, 0.0, 1000.0);
   o.max_measured = node.integer("max_measured", o.max_measured, 4, 500);
   return o;
 }

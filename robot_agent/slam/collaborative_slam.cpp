@@ -207,11 +207,13 @@ std::vector<ekf::Measurement> CollaborativeSlam::validate(const std::vector<ekf:
     if (LandmarkTrack* track = tracks_.find(measurement.landmark)) ++track->failures;
   };
   const ekf::ChiSquaredLimits limits(options_.search.gate_probability, 3);
+  const bool is_lonely = static_cast<int>(measurements.size()) < options_.search.min_agreeing;
   std::vector<ekf::Measurement> gated;
   for (const ekf::LinearisedMeasurement& linearised :
        filter_.innovation(measurements, wearer).measurements()) {
     const ekf::Measurement& measurement = measurements[static_cast<std::size_t>(linearised.measurement)];
-    if (linearised.nis <= limits(linearised.rows)) {
+    const bool is_far = is_lonely && linearised.innovation.head<2>().norm() > options_.search.max_lonely_px;
+    if (linearised.nis <= limits(linearised.rows) && !is_far) {
       gated.push_back(measurement);
     } else {
       refuse(measurement, &SearchCounts::chi_squared, &PseudoStereoCounts::chi_squared);

@@ -54,7 +54,10 @@ struct SearchOptions {
   int max_radius = 40;             ///< an ellipse is cut to this half-width [px]
   double wide_prior_px = 12.0;  ///< predicted sigma above which the motion is looked for in the images first
   int max_iterations = 1;       ///< of one update (Gauss-Newton); more where the prior is wide
-  int max_measured = 60;        ///< landmarks measured a frame, the most informative first
+  /// Fewer matches cannot check one another: one that is far from its prediction is refused.
+  int min_agreeing = 4;
+  double max_lonely_px = 4.0;  ///< [px]
+  int max_measured = 60;       ///< landmarks measured a frame, the most informative first
 };
 
 /// Depth from the wearer's camera.

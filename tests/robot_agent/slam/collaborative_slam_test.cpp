@@ -293,6 +293,29 @@ TEST(CollaborativeSlam, LostItSaysSoWithinASecondAndBeginsAnewWhereItWasSure) {
       << "and it admits the way in the dark";
 }
 
+TEST(CollaborativeSlam, AFewMatchesFarFromTheirPredictionsAreNotBelieved) {
+  CollaborativeSlam slam = collaborative();
+  run(slam, 0, 12);
+  // Of the next image only a window around one landmark is left, 7 px to the right of where it was.
+  const FrameBundle next = world().without_wearer(12);
+  const auto predicted = slam.filter().predict_pixel(slam.filter().landmark_id(0));
+  ASSERT_TRUE(predicted);
+  FrameBundle window = in_the_dark(12);
+  auto image = std::make_shared<GrayImage>(*window.image);
+  constexpr int kHalf = 30;
+  constexpr int kShift = 7;
+  const int u = static_cast<int>(predicted->pixel.x());
+  const int v = static_cast<int>(predicted->pixel.y());
+  for (int y = std::max(0, v - kHalf); y < std::min(image->height, v + kHalf); ++y) {
+    for (int x = std::max(0, u - kHalf); x < std::min(image->width - kShift, u + kHalf); ++x)
+      image->row(y)[x + kShift] = next.image->row(y)[x];
+  }
+  window.image = image;
+  const FrameEstimate estimate = slam.process(window);
+  EXPECT_EQ(estimate.search.fused_pixels, 0);
+  EXPECT_GT(estimate.search.chi_squared, 0);
+}
+
 TEST(CollaborativeSlam, LostWithoutAWearerItGoesOnInTheUsualDepth) {
   SlamOptions options = world().options();
   options.mode = Mode::kMono;
