@@ -7,14 +7,11 @@
 namespace cosight::vins {
 
 FactorGraph::FactorGraph(const Window& window, const GraphOptions& options, GraphScope scope)
-    : window_(window),
-      options_(options),
-      extrinsics_(pose_block(window.T_BS)),
-      time_offset_(window.time_offset) {
+    : window_(window), options_(options) {
   for (const WindowFrame& frame : window.frames) {
-    poses_.push_back(pose_block(frame.state.T_WB));
-    motions_.push_back(motion_block(frame.state));
+    blocks_.push_back({pose_block(frame.state.T_WB), motion_block(frame.state)});
   }
+  blocks_.push_back({pose_block(window.T_BS), {window.time_offset}});
   if (!window.prior.empty()) prior_.emplace(window.prior);
   if (scope == GraphScope::kPrior) return;
   add_visual_terms(scope);
@@ -71,15 +68,15 @@ const ceres::LossFunction* FactorGraph::loss(const Trust& how) {
 double* FactorGraph::block(StateKey key) {
   switch (key.kind) {
     case StateKind::kPose:
-      return poses_[window_.slot(key.frame)].data();
+      return blocks_[window_.slot(key.frame)].pose.data();
     case StateKind::kMotion:
-      return motions_[window_.slot(key.frame)].data();
+      return blocks_[window_.slot(key.frame)].motion.data();
     case StateKind::kExtrinsics:
-      return extrinsics_.data();
+      return extrinsics().data();
     case StateKind::kTimeOffset:
       break;
   }
-  return &time_offset_;
+  return &time_offset();
 }
 
 bool FactorGraph::is_constant(StateKind kind) const {
@@ -105,8 +102,8 @@ std::vector<StateKey> FactorGraph::free_states() const {
 }
 
 std::array<double*, 5> FactorGraph::blocks(const VisualTerm& term) {
-  return {poses_[term.host].data(), poses_[term.target].data(), extrinsics_.data(),
-          landmarks_[term.landmark].data(), &time_offset_};
+  return {blocks_[term.host].pose.data(), blocks_[term.target].pose.data(), extrinsics().data(),
+          landmarks_[term.landmark].data(), &time_offset()};
 }
 
 std::array<StateKey, 2> FactorGraph::pose_keys(const VisualTerm& term) const {
@@ -130,11 +127,11 @@ std::vector<StateKey> FactorGraph::prior_keys() const {
 }
 
 void FactorGraph::write_back(Window& window) const {
-  for (std::size_t i = 0; i < poses_.size(); ++i) {
-    window.frames[i].state = to_state(poses_[i].data(), motions_[i].data());
+  for (std::size_t i = 0; i < window.frames.size(); ++i) {
+    window.frames[i].state = to_state(blocks_[i].pose.data(), blocks_[i].motion.data());
   }
-  window.T_BS = to_pose(extrinsics_.data());
-  window.time_offset = time_offset_;
+  window.T_BS = to_pose(extrinsics().data());
+  window.time_offset = time_offset();
   for (std::size_t l = 0; l < landmarks_.size(); ++l) {
     Landmark& landmark = window.landmarks[landmark_ids_[l]];
     landmark.lambda = landmarks_[l][0];

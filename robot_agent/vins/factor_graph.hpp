@@ -97,10 +97,19 @@ class FactorGraph {
 
   const Window& window_;
   GraphOptions options_;
-  std::vector<PoseBlock> poses_;
-  std::vector<MotionBlock> motions_;
-  PoseBlock extrinsics_;
-  double time_offset_;
+  struct FrameBlocks {
+    PoseBlock pose{};
+    MotionBlock motion{};
+  };
+  PoseBlock& extrinsics() { return blocks_.back().pose; }
+  const PoseBlock& extrinsics() const { return blocks_.back().pose; }
+  double& time_offset() { return blocks_.back().motion[0]; }
+  double time_offset() const { return blocks_.back().motion[0]; }
+
+  /// Of the frames, then one more for extrinsics and time offset. In one piece, because Ceres takes
+  /// parameters in the order of their addresses: sums would depend in their last digit on where the heap
+  /// lies.
+  std::vector<FrameBlocks> blocks_;
   std::vector<LandmarkBlock> landmarks_;
   std::deque<HostTerm> hosts_;  ///< one a landmark
   std::vector<FeatureId> landmark_ids_;
