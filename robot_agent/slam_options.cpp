@@ -31,6 +31,8 @@ slam::SearchOptions read_search(const ConfigNode& node) {
   o.min_agreeing = node.integer("min_agreeing", o.min_agreeing, 0, 500);
   o.max_lonely_px = node.number("max_lonely_px", o.max_lonely_px, 0.0, 1000.0);
   o.max_measured = node.integer("max_measured", o.max_measured, 4, 500);
+  o.budget.limit_ms = node.number("budget_ms", o.budget.limit_ms, 0.0, 1000.0);
+  o.budget.reserved_ms = node.number("budget_reserved_ms", o.budget.reserved_ms, 0.0, 1000.0);
   return o;
 }
 
@@ -96,6 +98,7 @@ slam::MapOptions read_map(const ConfigNode& node) {
   o.forget_after_frames = node.integer("forget_after_frames", o.forget_after_frames, 1, 1'000'000);
   o.max_failed_ratio = node.number("max_failed_ratio", o.max_failed_ratio, 0.0, 1.0);
   o.min_attempts = node.integer("min_attempts", o.min_attempts, 1, 1000);
+  o.max_point_nonlinearity = node.number("max_point_nonlinearity", o.max_point_nonlinearity, 0.0, 10.0);
   return o;
 }
 

@@ -269,6 +269,7 @@ void CollaborativeSlam::renew_map(const GrayImage& image, const std::optional<St
     return;
   }
   estimate.landmarks_removed = maintenance_.tidy(filter_, tracks_);
+  filter_.convert_linear_landmarks(options_.map.max_point_nonlinearity);
   renew_references(image);
   watch.lap(estimate.timings.map);
   if (view) {

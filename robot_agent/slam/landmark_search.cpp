@@ -52,16 +52,19 @@ std::vector<Sighting> LandmarkSearch::find(const GrayImage& image, const ekf::Fi
   std::vector<Sighting> sightings;
   std::vector<LandmarkTrack*> missed;
   counts.predicted_in_view = static_cast<int>(predictions_.size());
+  MeasurementBudget budget(options_.budget, filter.state().size(), search_.options().n_sigmas,
+                           options_.max_radius);
   for (const ekf::PixelPrediction& prediction : predictions_) {
     if (counts.searched == options_.max_measured) break;
     if (contains(hidden, prediction.pixel)) continue;
-    LandmarkTrack& track = *tracks.find(prediction.landmark);
-    const auto patch = predicted_patch(filter, track);
-    ++counts.searched;
     constexpr double kKnownMotionSigma = 2.5;  // what the found motion leaves unexplained [px]
     const Eigen::Matrix2d S =
         known_motion ? Eigen::Matrix2d(kKnownMotionSigma * kKnownMotionSigma * Eigen::Matrix2d::Identity())
                      : prediction.S;
+    if (!budget.admit(S)) continue;
+    LandmarkTrack& track = *tracks.find(prediction.landmark);
+    const auto patch = predicted_patch(filter, track);
+    ++counts.searched;
     const auto match = patch ? search_.find(image, *patch, prediction.pixel, S) : vision::PatchMatch{};
     if (!match) {
       ++counts.not_found;

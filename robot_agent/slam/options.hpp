@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "robot_agent/overlap/predict_overlap.hpp"
+#include "robot_agent/slam/measurement_budget.hpp"
 #include "robot_agent/wearer/yaw_offset.hpp"
 #include "shared/geometry/pose.hpp"
 
@@ -58,6 +59,7 @@ struct SearchOptions {
   int min_agreeing = 4;
   double max_lonely_px = 4.0;  ///< [px]
   int max_measured = 60;       ///< landmarks measured a frame, the most informative first
+  BudgetOptions budget;        ///< of time, for whoever needs a bound on the worst frame
 };
 
 /// Depth from the wearer's camera.
@@ -121,6 +123,9 @@ struct MapOptions {
   int forget_after_frames = 15;   ///< out of view for so long, a landmark leaves the filter for the map
   double max_failed_ratio = 0.5;  ///< failed / attempted searches above which a landmark goes
   int min_attempts = 4;           ///< searches before that ratio counts
+  /// Linearity index (Civera) below which a landmark is kept as a point, three states instead of six; 0:
+  /// never. 0.1 is usual.
+  double max_point_nonlinearity = 0.0;
 };
 
 /// How the estimate gets its origin and its scale.
