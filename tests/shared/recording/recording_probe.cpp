@@ -94,30 +94,39 @@ int write_frames(const std::string& path, double megabytes) {
   return EXIT_SUCCESS;
 }
 
-/// The last message of each topic, by the sequence numbers of its one writer.
-std::map<std::string, std::uint32_t> last_messages(const McapReader& reader) {
-  std::map<std::string, std::uint32_t> last;
+struct LastMessage {
+  std::uint32_t sequence = 0;
+  cosight::Stamp log_time = 0;
+};
+using LastMessages = std::map<std::string, LastMessage>;
+
+/// Of each topic, by the sequence numbers of its one writer.
+LastMessages last_messages(const McapReader& reader) {
+  LastMessages last;
   MessageCursor cursor = reader.messages({}, MessageOrder::kFile);
   while (const auto message = cursor.next()) {
-    std::uint32_t& sequence = last[reader.contents().channels.at(message->channel_id).topic];
-    sequence = std::max(sequence, message->sequence);
+    LastMessage& known = last[reader.contents().channels.at(message->channel_id).topic];
+    if (message->sequence >= known.sequence) known = {message->sequence, message->log_time};
   }
   return last;
 }
 
-/// From the first message that a killed recorder should have to the kill [ns].
-cosight::Stamp lost_before(cosight::Stamp kill, const std::map<std::string, std::uint32_t>& last,
-                           const McapReader& witness) {
+/// From the first message that a killed recorder should have to the kill [ns]. A topic's messages come in
+/// their order: what is missing came after the last that is there, even if the other recorder had it long
+/// before (the writers' history, which a recorder gets when it begins).
+cosight::Stamp lost_before(cosight::Stamp kill, const LastMessages& last, const McapReader& witness) {
   MessageFilter filter;
   filter.wants = [&last](const Channel& channel) { return last.contains(channel.topic); };
   filter.start = kill - 10 * cosight::kNanosecondsPerSecond;
   filter.end = kill;
+  cosight::Stamp lost = 0;
   MessageCursor cursor = witness.messages(filter, MessageOrder::kLogTime);
   while (const auto message = cursor.next()) {
-    const Channel& channel = witness.contents().channels.at(message->channel_id);
-    if (message->sequence > last.at(channel.topic)) return kill - message->log_time;
+    const LastMessage& known = last.at(witness.contents().channels.at(message->channel_id).topic);
+    if (message->sequence > known.sequence)
+      lost = std::max(lost, kill - std::max(message->log_time, known.log_time));
   }
-  return 0;
+  return lost;
 }
 
 int compare_with_witness(const std::string& path, std::span<char*> killed) {
