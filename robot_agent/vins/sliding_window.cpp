@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <map>
 #include <utility>
 #include <vector>
@@ -47,7 +46,7 @@ std::size_t given_away(FeatureId id, const Landmark& landmark, FrameId newest) {
   const std::size_t count = landmark.observations.size();
   if (!is_tracked(landmark, newest)) return count;
   if (count < 2 * kLeast) return 1;
-  const std::uint32_t scattered = static_cast<std::uint32_t>(id) * 2654435761U >> 7U;  // Knuth's hash
+  const FeatureId scattered = id * 2654435761U >> 7U;  // Knuth's hash
   return kLeast + scattered % (count - 2 * kLeast + 1);
 }
 
