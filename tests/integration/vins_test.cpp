@@ -1,0 +1,81 @@
+#include <sstream>
+#include <string>
+
+#include "tests/integration/session.hpp"
+
+namespace cosight::integration {
+namespace {
+
+namespace fs = std::filesystem;
+
+int poses_of(const fs::path& trajectory) {
+  std::istringstream in(text_of(trajectory));
+  int poses = 0;
+  for (std::string line; std::getline(in, line);)
+    poses += line.starts_with('#') ? 0 : 1;
+  return poses;
+}
+
+class VinsSession : public Session {
+ protected:
+  /// The small scene as a recording, without DDS.
+  fs::path import_small_scene() {
+    const fs::path file = in_folder("scene.mcap");
+    ChildProcess import(COSIGHT, {"import", small_scene().string(), file.string()}, in_folder("import"));
+    EXPECT_EQ(import.wait().exit_code, 0);
+    return file;
+  }
+
+  /// Where the files of a run that was fed by `recording` are.
+  fs::path offline_run(const fs::path& recording, const char* name, const Arguments& more) {
+    write_into(in_folder(name));
+    Arguments arguments{"--dataset", small_scene().string()};  // a recording does not tell T_BC
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Ending ending = robot_from(recording, arguments)->wait();
+    EXPECT_EQ(ending.exit_code, 0) << ending.err;
+    return run_folder();
+  }
+};
+
+TEST_F(VinsSession, LeavesSlamsBytesAsTheyAreAndGivesItsOwnAgain) {
+  const fs::path recording = import_small_scene();
+  const fs::path without = offline_run(recording, "without", {});
+  const fs::path with = offline_run(recording, "with", {"--set", "vins.enable=true"});
+  const fs::path again = offline_run(recording, "again", {"--set", "vins.enable=true"});
+  for (const char* name : {"trajectory.tum", "frames.csv", "map.ply", "map.pcd"})
+    EXPECT_EQ(text_of(without / name), text_of(with / name)) << name;
+  EXPECT_EQ(text_of(with / "vins.tum"), text_of(again / "vins.tum"));
+  EXPECT_FALSE(fs::exists(without / "vins.tum"));
+  EXPECT_EQ(RunFiles(with).summary("vins.images"), kFrames);
+  EXPECT_EQ(RunFiles(with).summary("vins.images_dropped"), 0);
+}
+
+TEST_F(VinsSession, RunsAloneAndCountsWhatWasMissingBeforeItStarted) {
+  const Ending ending = robot(small_scene(), {"--only", "vins", "--rate", "0"})->wait();
+  ASSERT_EQ(ending.exit_code, 0) << ending.err;
+  EXPECT_FALSE(fs::exists(run_folder() / "trajectory.tum"));
+  EXPECT_TRUE(fs::exists(run_folder() / "vins.tum"));
+  const RunFiles files = run_files();
+  EXPECT_EQ(files.summary("vins.images"), kFrames);
+  const int tracking = files.summary("vins.frames_tracking");
+  int missing = 0;
+  for (const char* what : {"too few frames", "too few tracks", "too little parallax", "no solution",
+                           "scale unobservable", "camera and IMU inconsistent"})
+    missing += files.summary(std::string("vins_not_yet_observable.") + what);
+  EXPECT_EQ(tracking + missing, kFrames);
+  EXPECT_GT(tracking, 0);
+  EXPECT_EQ(poses_of(run_folder() / "vins.tum"), tracking);
+  EXPECT_GT(files.summary("vins.imu_samples"), 700);
+}
+
+TEST_F(VinsSession, RefusesToStartWithoutAnImu) {
+  const fs::path dataset = in_folder("dataset");
+  copy_small_scene(dataset);
+  fs::remove(dataset / "robot/imu.csv");
+  const Ending ending = robot(dataset, {"--only", "vins"})->wait();
+  EXPECT_EQ(ending.exit_code, 2);
+  EXPECT_NE(ending.err.find("vins.enable: needs the robot's IMU"), std::string::npos) << ending.err;
+}
+
+}  // namespace
+}  // namespace cosight::integration
