@@ -174,6 +174,7 @@ void add_aggregate_command(CLI::App& program) {
       ->add_option("--diverged-percent", arguments->diverged_percent,
                    "A final error of more of the path counts as diverged")
       ->capture_default_str();
+  command->footer("Example: cosight aggregate build/experiments/corridor corridor_01 corridor_02");
   command->callback([arguments] { run(*arguments); });
 }
 

@@ -43,6 +43,7 @@ void add_export_command(CLI::App& program) {
   forms->add_option("--tum", arguments->tum, "trajectories in TUM's form");
   forms->add_option("--images", arguments->images, "the frames alone");
   forms->require_option(1, 0);
+  command->footer("Example: cosight export trial.mcap --tum trajectories --images frames");
   command->callback([arguments] { run(*arguments); });
 }
 

@@ -31,6 +31,7 @@ void add_import_command(CLI::App& program) {
       ->required()
       ->check(CLI::ExistingDirectory);
   command->add_option("file", arguments->recording, "MCAP file to make")->required();
+  command->footer("Example: cosight import runs/turn trial.mcap");
   command->callback([arguments] { run(*arguments); });
 }
 

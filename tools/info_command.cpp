@@ -65,6 +65,7 @@ void add_info_command(CLI::App& program) {
   const auto path = std::make_shared<std::filesystem::path>();
   CLI::App* command = program.add_subcommand("info", "what is in a recording");
   command->add_option("file", *path, "MCAP file")->required()->check(CLI::ExistingFile);
+  command->footer("Example: cosight info trial.mcap");
   command->callback([path] { run(*path); });
 }
 

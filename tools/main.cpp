@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <iostream>
+#include <string>
 
 #include "tools/aggregate_command.hpp"
 #include "tools/compare_command.hpp"
@@ -19,10 +20,23 @@ namespace {
 constexpr int kFailed = 1;
 constexpr int kUsage = 2;
 
+/// "cosight", or "cosight record" once that is known.
+std::string command_of(const CLI::App& program) {
+  std::string command = program.get_name();
+  for (const CLI::App* given : program.get_subcommands())
+    command += ' ' + given->get_name();
+  return command;
+}
+
 int run(int argc, char** argv) {
-  CLI::App program{"Cosight's tools around a run: prepare data, record, evaluate, summarise"};
+  CLI::App program{"Cosight's tools around a run: prepare data, record, evaluate, summarise", "cosight"};
   program.require_subcommand(1);
-  program.set_version_flag("--version", COSIGHT_VERSION);
+  program.set_version_flag("--version", "cosight " COSIGHT_VERSION);
+  program.footer(
+      "Examples:\n"
+      "  cosight record trial.mcap\n"
+      "  cosight evaluate runs/robot/trajectory.tum runs/turn/truth/robot_cam0.tum --align se3\n"
+      "  cosight evaluate --help\n");
   cosight::add_prepare_command(program);
   cosight::add_evaluate_command(program);
   cosight::add_summarise_command(program);
@@ -39,7 +53,9 @@ int run(int argc, char** argv) {
   } catch (const CLI::RuntimeError& error) {
     return error.get_exit_code();  // a command's own
   } catch (const CLI::ParseError& error) {
-    return program.exit(error) == 0 ? 0 : kUsage;
+    if (error.get_exit_code() == 0) return program.exit(error);  // --help, --version
+    std::cerr << "cosight: " << error.what() << "; see " << command_of(program) << " --help\n";
+    return kUsage;
   }
   return 0;
 }

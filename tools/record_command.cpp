@@ -166,6 +166,7 @@ void add_record_command(CLI::App& program) {
   add_dds_options(*command, arguments->dds);
   command->add_option("--log-level", arguments->log_level, "trace, debug, info, warning, error or off")
       ->capture_default_str();
+  command->footer("Example: cosight record trial.mcap --domain 7");
   command->callback([arguments] { run(*arguments); });
 }
 

@@ -31,6 +31,7 @@ void add_recover_command(CLI::App& program) {
       program.add_subcommand("recover", "make a cut-off or damaged recording whole for everyone's tools");
   command->add_option("file", arguments->from, "MCAP file")->required()->check(CLI::ExistingFile);
   command->add_option("out", arguments->to, "MCAP file to make")->required();
+  command->footer("Example: cosight recover cut_off.mcap whole.mcap");
   command->callback([arguments] { run(*arguments); });
 }
 

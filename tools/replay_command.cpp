@@ -122,6 +122,7 @@ void add_replay_command(CLI::App& program) {
   add_dds_options(*command, arguments->dds);
   command->add_option("--log-level", arguments->log_level, "trace, debug, info, warning, error or off")
       ->capture_default_str();
+  command->footer("Example: cosight replay trial.mcap --rate 0.5 --domain 7");
   command->callback([arguments] { run(*arguments); });
 }
 

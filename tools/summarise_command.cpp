@@ -98,6 +98,7 @@ void add_summarise_command(CLI::App& program) {
       ->check(CLI::ExistingDirectory);
   command->add_option("MODE", arguments->modes, "Modes, in the order of the table")->required();
   command->add_option("--metrics", arguments->metrics, "Rows of the table")->delimiter(',');
+  command->footer("Example: cosight summarise build/demo mono collaborative");
   command->callback([arguments] { run(*arguments); });
 }
 

@@ -18,8 +18,8 @@ void PrintTo(const ProgramUnderTest& program, std::ostream* out) {
   *out << program.name;
 }
 
-/// Both agents answer alike.
-class CommandLine : public Session, public testing::WithParamInterface<ProgramUnderTest> {
+/// All programs answer alike.
+class AnyProgram : public Session, public testing::WithParamInterface<ProgramUnderTest> {
  protected:
   Ending run(const Arguments& arguments) const {
     return ChildProcess(GetParam().path, arguments, in_folder("streams")).wait();
@@ -28,23 +28,45 @@ class CommandLine : public Session, public testing::WithParamInterface<ProgramUn
   std::string says(const std::string& sentence) const { return GetParam().name + ": " + sentence + "\n"; }
 };
 
-INSTANTIATE_TEST_SUITE_P(Agents, CommandLine,
+INSTANTIATE_TEST_SUITE_P(Programs, AnyProgram,
                          testing::Values(ProgramUnderTest{"robot_agent", ROBOT_AGENT},
-                                         ProgramUnderTest{"wearable_agent", WEARABLE_AGENT}),
+                                         ProgramUnderTest{"wearable_agent", WEARABLE_AGENT},
+                                         ProgramUnderTest{"sim", SIM}, ProgramUnderTest{"cosight", COSIGHT}),
                          [](const auto& instance) { return instance.param.name; });
 
-TEST_P(CommandLine, HelpShowsExamples) {
+TEST_P(AnyProgram, HelpShowsExamples) {
   const Ending ending = run({"--help"});
   EXPECT_EQ(ending.exit_code, 0);
   EXPECT_EQ(ending.err, "");
-  EXPECT_THAT(ending.out, HasSubstr("Examples:\n  " + GetParam().name + " --"));
+  EXPECT_THAT(ending.out, HasSubstr("Examples:\n  " + GetParam().name + " "));
 }
 
-TEST_P(CommandLine, VersionIsNameAndNumber) {
+TEST_P(AnyProgram, VersionIsNameAndNumber) {
   const Ending ending = run({"--version"});
   EXPECT_EQ(ending.exit_code, 0);
   EXPECT_THAT(ending.out, MatchesRegex(GetParam().name + " [0-9]+\\.[0-9]+\\.[0-9]+\n"));
 }
+
+TEST_P(AnyProgram, WithoutArgumentsItSaysWhatIsMissing) {
+  const Ending ending = run({});
+  EXPECT_EQ(ending.exit_code, 2);
+  EXPECT_EQ(ending.out, "");
+  EXPECT_THAT(ending.err, MatchesRegex(GetParam().name + ": [^\n]*\n"));
+}
+
+TEST_F(Session, CosightNamesTheCommandThatLacksAnArgument) {
+  const Ending ending = ChildProcess(COSIGHT, {"info"}, in_folder("streams")).wait();
+  EXPECT_EQ(ending.exit_code, 2);
+  EXPECT_EQ(ending.err, "cosight: file is required; see cosight info --help\n");
+}
+
+/// Both agents answer alike.
+class CommandLine : public AnyProgram {};
+
+INSTANTIATE_TEST_SUITE_P(Agents, CommandLine,
+                         testing::Values(ProgramUnderTest{"robot_agent", ROBOT_AGENT},
+                                         ProgramUnderTest{"wearable_agent", WEARABLE_AGENT}),
+                         [](const auto& instance) { return instance.param.name; });
 
 TEST_P(CommandLine, AMissingDatasetIsNamed) {
   const Ending ending = run({"--dataset", "/no/such/folder"});
