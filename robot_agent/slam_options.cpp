@@ -108,8 +108,6 @@ slam::HealthOptions read_health(const ConfigNode& node) {
   o.min_test_ratio = node.number("min_test_ratio", o.min_test_ratio, 0.0, 1.0);
   o.window_s = node.number("window_s", o.window_s, 0.01, 60.0);
   o.reset_after_s = node.number("reset_after_s", o.reset_after_s, 0.0, 1e6);
-  o.sigma_speed = node.number("sigma_speed", o.sigma_speed, 0.0, 100.0);
-  o.sigma_turn_rate = node.number("sigma_turn_rate", o.sigma_turn_rate, 0.0, 100.0);
   return o;
 }
 

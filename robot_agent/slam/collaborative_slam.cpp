@@ -322,18 +322,14 @@ void CollaborativeSlam::forget_landmarks() {
   tracks_.clear();
 }
 
-// The map of a lost filter is wrong where it matters. What it was before stays in the archive; the new one
-// begins where the filter was last sure, with the doubt of what the robot may have done since.
+// The map of a lost filter is wrong where it matters; what it was before stays in the archive. The new one
+// begins where the motion model leads, with the doubt that has grown on the way.
 void CollaborativeSlam::leave_map(Stamp stamp) {
   ++resets_;
   candidates_.clear(filter_);
   forget_landmarks();
-  const double elapsed = to_seconds(stamp - sure_stamp_);
-  const double sigma_p = options_.health.sigma_speed * elapsed;
-  const double sigma_q = options_.health.sigma_turn_rate * elapsed;
-  UncertainPose T_WS = sure_T_WS_;
-  T_WS.covariance.diagonal().head<3>().array() += sigma_p * sigma_p;
-  T_WS.covariance.diagonal().tail<3>().array() += sigma_q * sigma_q;
+  filter_.predict(to_seconds(stamp - last_stamp_.value_or(stamp)));
+  const UncertainPose T_WS = filter_.T_WS();
   filter_.reset(T_WS, options_.motion.start_sigma_velocity, options_.motion.start_sigma_angular_velocity);
   search_.predict(filter_, tracks_);
   first_view_stamp_.reset();
@@ -374,11 +370,7 @@ void CollaborativeSlam::renew_references(const GrayImage& image) {
 Tracking CollaborativeSlam::judge(const FrameEstimate& estimate) {
   if (!has_map_) return resets_ > 0 ? Tracking::kLost : Tracking::kWaitingForScale;
   health_.note(estimate.stamp, estimate.search, estimate.pseudo_stereo);
-  if (health_.is_sure()) {
-    sure_stamp_ = estimate.stamp;
-    sure_T_WS_ = filter_.T_WS();
-    depth_before_reset_ = usual_depth(search_.predictions());
-  }
+  if (health_.is_sure()) depth_before_reset_ = usual_depth(search_.predictions());
   return health_.is_lost() ? Tracking::kLost : Tracking::kTracking;
 }
 

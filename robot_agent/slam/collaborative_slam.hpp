@@ -95,9 +95,7 @@ class CollaborativeSlam {
   bool has_map_ = false;
   Health health_;
   int resets_ = 0;
-  Stamp sure_stamp_ = 0;  ///< of the last frame in which the filter was not lost
-  UncertainPose sure_T_WS_;
-  double depth_before_reset_ = 0.0;  ///< usual in view then [m]
+  double depth_before_reset_ = 0.0;  ///< usual in view when the filter was sure last [m]
 };
 
 }  // namespace cosight::slam

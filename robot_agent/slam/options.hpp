@@ -148,12 +148,11 @@ struct StartOptions {
 
 /// When the filter is lost, and what is done then.
 struct HealthOptions {
-  double lost_after_s = 0.5;     ///< without any match that holds
-  double min_test_ratio = 0.2;   ///< of the landmarks looked for, over `window_s`; below it the map is wrong
-  double window_s = 0.3;         ///< [s], the time in which what was seen fades to a third
-  double reset_after_s = 1.0;    ///< lost for so long, slam begins a new map where it was last sure; 0: never
-  double sigma_speed = 0.5;      ///< of what the robot did meanwhile [m/s]
-  double sigma_turn_rate = 0.3;  ///< the same [rad/s]
+  double lost_after_s = 0.5;    ///< without any match that holds
+  double min_test_ratio = 0.2;  ///< of the landmarks looked for, over `window_s`; below it the map is wrong
+  double window_s = 0.3;        ///< [s], the time in which what was seen fades to a third
+  double reset_after_s =
+      1.0;  ///< lost for so long, slam begins a new map where the motion model leads; 0: never
 };
 
 struct SlamOptions {
