@@ -33,7 +33,7 @@ struct PseudoStereoCounts {
   int too_little_parallax = 0;
   int chi_squared = 0;
   int joint_compatibility = 0;
-  int fused = 0;        ///< measured as a 3-D point (C5)
+  int fused = 0;        ///< of mapped landmarks, measured as a pixel of Cf or a point (C5)
   int initialised = 0;  ///< started a new landmark at once
   int redundant = 0;    ///< good, but the map needed no more there
 };

@@ -33,8 +33,7 @@ void VinsRecord::add(const vins::VinsEstimate& estimate, const std::optional<Pos
     solve_ms_.add(estimate.report->solve_ms);
     marginalise_ms_.add(estimate.report->marginalise_ms);
   }
-  const bool starts = T_WS && !was_tracking_;
-  was_tracking_ = T_WS.has_value();
+  const bool starts = T_WS && !last_p_WS_;
   if (starts && starts_ > 0) trajectory_.append("# started anew: another W");
   starts_ += starts ? 1 : 0;
   if (!T_WS) {

@@ -41,12 +41,11 @@ class VinsRecord {
   outbox::LineFile trajectory_;
   std::uint64_t tracking_ = 0;
   std::uint64_t starts_ = 0;
-  bool was_tracking_ = false;
   std::array<std::uint64_t, kReasons> not_yet_{};  ///< frames without an estimate, by what is missing
   std::array<std::uint64_t, kFailures> failures_{};
   std::optional<Stamp> first_stamp_;
   std::optional<Stamp> first_tracking_;
-  std::optional<Eigen::Vector3d> last_p_WS_;
+  std::optional<Eigen::Vector3d> last_p_WS_;  ///< while tracking
   double path_m_ = 0.0;
   std::string last_state_;
   outbox::DurationHistogram solve_ms_;

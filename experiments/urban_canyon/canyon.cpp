@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "experiments/urban_canyon/gaussian.hpp"
+
 namespace cosight::experiments {
 namespace {
 
@@ -11,13 +13,6 @@ constexpr double kImuRate = 200.0;   // [Hz]
 constexpr double kFrameRate = 10.0;  // [Hz]
 constexpr double kGravity = 9.7876;  // as in Hong Kong [m/s^2]
 constexpr Stamp kStart = 1'000'000'000'000;
-
-Vector3d gaussian(std::mt19937_64& random, double sigma) {
-  std::normal_distribution<double> draw(0.0, sigma);
-  const double x = draw(random);
-  const double y = draw(random);
-  return {x, y, draw(random)};
-}
 
 /// What the IMU measures: the route's own derivatives, biases that walk, white noise.
 std::vector<vins::ImuSample> measure_imu(const Route& route, const CanyonOptions& options,

@@ -3,8 +3,10 @@
 #include <Eigen/Cholesky>
 #include <array>
 #include <cstdio>
+#include <stdexcept>
 
 #include "experiments/consistency/monte_carlo.hpp"
+#include "experiments/urban_canyon/gaussian.hpp"
 #include "experiments/urban_canyon/parallel.hpp"
 #include "experiments/urban_canyon/study.hpp"
 #include "robot_agent/vins/parameter_blocks.hpp"
@@ -14,13 +16,6 @@ namespace cosight::experiments {
 namespace {
 
 using Eigen::Vector3d;
-
-Vector3d gaussian(std::mt19937_64& random, double sigma) {
-  std::normal_distribution<double> draw(0.0, sigma);
-  const double x = draw(random);
-  const double y = draw(random);
-  return {x, y, draw(random)};
-}
 
 /// The true state off by what the start prior allows.
 vins::NavState drawn_start(const vins::NavState& truth, const vins::StartUncertainty& sigma,
@@ -53,7 +48,7 @@ PoseCheck check(const vins::Window& window, const vins::GraphOptions& graph, con
 
 CanyonOptions static_canyon() {
   CanyonOptions options;
-  options.length = 150.0;
+  options.length = 300.0;  // so that the fastest drive takes longer than what is checked of it
   options.traffic = {.ahead_share = 0.0,
                      .neighbours_per_minute = 0.0,
                      .oncoming_per_minute = 0.0,
@@ -68,6 +63,11 @@ std::vector<PoseCheck> check_pose(const ConsistencyOptions& options, unsigned se
   const CanyonOptions canyon = static_canyon();
   const CanyonDrive drive = make_canyon_drive(canyon, seed);
   const vins::TrackSequence& sequence = drive.sequence;
+  if (sequence.frames.size() <= static_cast<std::size_t>(options.frames)) {
+    throw std::runtime_error("the drive of seed " + std::to_string(seed) + " has only " +
+                             std::to_string(sequence.frames.size()) + " frames; " +
+                             std::to_string(options.frames) + " are to be checked");
+  }
   vins::WindowOptions window_options;
   window_options.solver.graph.gravity = sequence.gravity;
   window_options.solver.graph.trust = options.trust;

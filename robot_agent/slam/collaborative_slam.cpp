@@ -212,7 +212,8 @@ std::vector<ekf::Measurement> CollaborativeSlam::validate(const std::vector<ekf:
   for (const ekf::LinearisedMeasurement& linearised :
        filter_.innovation(measurements, wearer).measurements()) {
     const ekf::Measurement& measurement = measurements[static_cast<std::size_t>(linearised.measurement)];
-    const bool is_far = is_lonely && linearised.innovation.head<2>().norm() > options_.search.max_lonely_px;
+    const bool is_far = is_lonely && measurement.kind != ekf::MeasurementKind::kPoint &&
+                        linearised.innovation.head<2>().norm() > options_.search.max_lonely_px;
     if (linearised.nis <= limits(linearised.rows) && !is_far) {
       gated.push_back(measurement);
     } else {

@@ -1,7 +1,6 @@
 #include "robot_agent/slam/known_start.hpp"
 
 #include "robot_agent/vision/known_points.hpp"
-#include "robot_agent/vision/patch.hpp"
 
 namespace cosight::slam {
 namespace {
@@ -14,17 +13,6 @@ std::vector<vision::KnownPoint> points_in_view(const std::vector<KnownPoint>& po
     if (pixel && camera.contains(*pixel)) in_view.push_back({point.p_W, *pixel});
   }
   return in_view;
-}
-
-LandmarkTrack first_track(ekf::LandmarkId id, const GrayImage& image, const Eigen::Vector2d& pixel,
-                          const Pose& T_WS) {
-  LandmarkTrack track;
-  track.id = id;
-  track.reference = vision::cut_reference(image, pixel);
-  track.T_WS_reference = T_WS;
-  track.pixel = pixel;
-  track.found = true;
-  return track;
 }
 
 }  // namespace
@@ -42,7 +30,7 @@ bool start_from_known_points(const std::vector<KnownPoint>& points, const GrayIm
   const double variance = options.start.known_point_sigma * options.start.known_point_sigma;
   for (const vision::KnownPoint& point : in_view) {
     const auto id = filter.add_known_point(point.p_W, variance * Eigen::Matrix3d::Identity());
-    if (id) tracks.add(first_track(*id, image, point.pixel, pose->T_WC.T));
+    if (id) tracks.add(track_from(image, *id, point.pixel, pose->T_WC.T));
   }
   return true;
 }
@@ -54,7 +42,7 @@ bool start_at_assumed_depth(double depth, const GrayImage& image, const vision::
   constexpr double kRelativeSigma = 0.5;
   for (const vision::Corner& corner : corners) {
     const auto id = filter.add_landmark_at_depth(corner.pixel, depth, kRelativeSigma);
-    if (id) tracks.add(first_track(*id, image, corner.pixel, filter.camera().T_WS()));
+    if (id) tracks.add(track_from(image, *id, corner.pixel, filter.camera().T_WS()));
   }
   return true;
 }

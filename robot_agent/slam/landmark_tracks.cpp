@@ -4,6 +4,17 @@
 
 namespace cosight::slam {
 
+LandmarkTrack track_from(const GrayImage& image, ekf::LandmarkId id, const Eigen::Vector2d& pixel,
+                         const Pose& T_WS) {
+  LandmarkTrack track;
+  track.id = id;
+  track.reference = vision::cut_reference(image, pixel);
+  track.T_WS_reference = T_WS;
+  track.pixel = pixel;
+  track.found = true;
+  return track;
+}
+
 void LandmarkTracks::remove(ekf::LandmarkId id) {
   std::erase_if(tracks_, [id](const LandmarkTrack& track) { return track.id == id; });
 }

@@ -7,6 +7,7 @@
 #include "robot_agent/ekf/measurement.hpp"
 #include "robot_agent/vision/patch.hpp"
 #include "shared/geometry/pose.hpp"
+#include "shared/image/gray_image.hpp"
 
 namespace cosight::slam {
 
@@ -23,6 +24,10 @@ struct LandmarkTrack {
   int failures = 0;                                 ///< of these, not found or refused
   int frames_unseen = 0;                            ///< since it was fused last
 };
+
+/// The track of a landmark that starts in this image, seen at `pixel` from T_WS.
+LandmarkTrack track_from(const GrayImage& image, ekf::LandmarkId id, const Eigen::Vector2d& pixel,
+                         const Pose& T_WS);
 
 /// One track a landmark of the filter, oldest first: the filter's order.
 class LandmarkTracks {

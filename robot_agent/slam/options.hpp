@@ -55,11 +55,12 @@ struct SearchOptions {
   int max_radius = 40;             ///< an ellipse is cut to this half-width [px]
   double wide_prior_px = 12.0;  ///< predicted sigma above which the motion is looked for in the images first
   int max_iterations = 1;       ///< of one update (Gauss-Newton); more where the prior is wide
-  /// Fewer matches cannot check one another: one that is far from its prediction is refused.
+  /// Fewer pixels, of both cameras together, cannot check one another: one that is farther from its
+  /// prediction than `max_lonely_px` is refused.
   int min_agreeing = 4;
-  double max_lonely_px = 4.0;  ///< [px]
-  int max_measured = 60;       ///< landmarks measured a frame, the most informative first
-  BudgetOptions budget;        ///< of time, for whoever needs a bound on the worst frame
+  double max_lonely_px = 4.0;
+  int max_measured = 60;  ///< landmarks measured a frame, the most informative first
+  BudgetOptions budget;   ///< of time, for whoever needs a bound on the worst frame
 };
 
 /// Depth from the wearer's camera.
@@ -151,8 +152,8 @@ struct HealthOptions {
   double lost_after_s = 0.5;    ///< without any match that holds
   double min_test_ratio = 0.2;  ///< of the landmarks looked for, over `window_s`; below it the map is wrong
   double window_s = 0.3;        ///< [s], the time in which what was seen fades to a third
-  double reset_after_s =
-      1.0;  ///< lost for so long, slam begins a new map where the motion model leads; 0: never
+  /// Lost for so long, slam begins a new map where the motion model leads; 0: never.
+  double reset_after_s = 1.0;
 };
 
 struct SlamOptions {

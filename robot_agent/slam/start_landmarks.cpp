@@ -32,13 +32,9 @@ int start_landmarks(const std::vector<NewPoint>& points, const ekf::StereoRig& r
       ++(filter.has_room() ? counts.too_little_parallax : counts.redundant);
       continue;
     }
-    LandmarkTrack track;
-    track.id = *ids[i];
-    track.reference = vision::cut_reference(image_S, points[i].match.pixel_S);
-    track.T_WS_reference = filter.camera().T_WS();
-    if (points[i].normal_S) track.normal_W = filter.camera().q_WS * *points[i].normal_S;
-    track.pixel = points[i].match.pixel_S;
-    track.found = true;
+    const ekf::CameraState camera = filter.camera();
+    LandmarkTrack track = track_from(image_S, *ids[i], points[i].match.pixel_S, camera.T_WS());
+    if (points[i].normal_S) track.normal_W = camera.q_WS * *points[i].normal_S;
     tracks.add(std::move(track));
     ++added;
   }

@@ -2,68 +2,14 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
-#include <algorithm>
 #include <cmath>
-#include <memory>
 #include <numbers>
 
 #include "shared/evaluation/trajectory_errors.hpp"
-#include "tests/robot_agent/slam/two_camera_world.hpp"
+#include "tests/robot_agent/slam/world_runs.hpp"
 
 namespace cosight::slam {
 namespace {
-
-const TwoCameraWorld& world() {
-  return TwoCameraWorld::instance();
-}
-
-std::vector<FrameEstimate> run(CollaborativeSlam& slam, int first, int last) {
-  std::vector<FrameEstimate> estimates;
-  for (int frame = first; frame < last; ++frame)
-    estimates.push_back(slam.process(world().bundle(frame)));
-  return estimates;
-}
-
-std::vector<FrameEstimate> run_without_wearer(CollaborativeSlam& slam, int first, int last) {
-  std::vector<FrameEstimate> estimates;
-  for (int frame = first; frame < last; ++frame)
-    estimates.push_back(slam.process(world().without_wearer(frame)));
-  return estimates;
-}
-
-CollaborativeSlam collaborative() {
-  return CollaborativeSlam(world().camera(), world().options());
-}
-
-double position_error(const FrameEstimate& estimate, int frame) {
-  return (estimate.T_WS.T.p - world().T_WS(frame).p).norm();
-}
-
-double position_std(const FrameEstimate& estimate) {
-  return std::sqrt(estimate.T_WS.covariance.topLeftCorner<3, 3>().trace());
-}
-
-int points_fused(const std::vector<FrameEstimate>& estimates) {
-  int fused = 0;
-  for (const FrameEstimate& estimate : estimates)
-    fused += estimate.pseudo_stereo.fused;
-  return fused;
-}
-
-int sum_of_ends(const PseudoStereoCounts& counts) {
-  return counts.ratio_test + counts.epipolar + counts.too_little_parallax + counts.chi_squared +
-         counts.joint_compatibility + counts.fused + counts.initialised + counts.redundant;
-}
-
-void expect_sound(const FrameEstimate& estimate) {
-  ASSERT_TRUE(estimate.T_WS.T.p.allFinite() && estimate.T_WS.T.q.coeffs().allFinite());
-  ASSERT_TRUE(estimate.v_W.allFinite() && estimate.omega_S.allFinite());
-  EXPECT_NEAR(estimate.T_WS.T.q.norm(), 1.0, 1e-9);
-  ASSERT_TRUE(estimate.T_WS.covariance.allFinite() && estimate.twist_covariance.allFinite());
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> eigen(estimate.T_WS.covariance);
-  EXPECT_GE(eigen.eigenvalues().minCoeff(), -1e-9 * eigen.eigenvalues().maxCoeff());
-}
 
 void expect_identical(const FrameEstimate& a, const FrameEstimate& b) {
   EXPECT_EQ(a.T_WS.T.p, b.T_WS.T.p);
@@ -259,146 +205,6 @@ TEST(CollaborativeSlam, MonoUsesTheWearerForTheScaleAndNeverAgain) {
     EXPECT_EQ(estimate.pseudo_stereo_outcome, PseudoStereoOutcome::kNoWearerImage);
   }
 }
-
-/// The robot's lens is covered, and nothing comes from the wearer.
-FrameBundle in_the_dark(int frame) {
-  FrameBundle bundle = world().without_wearer(frame);
-  auto black = std::make_shared<GrayImage>(*bundle.image);
-  std::fill(black->data.begin(), black->data.end(), std::uint8_t{0});
-  bundle.image = black;
-  return bundle;
-}
-
-TEST(CollaborativeSlam, LostItSaysSoWithinASecondAndBeginsAnewWhereTheMotionLed) {
-  CollaborativeSlam slam = collaborative();
-  const auto before = run(slam, 0, 12);
-  const std::size_t mapped = slam.map().size();
-  std::vector<FrameEstimate> dark;
-  for (int frame = 12; frame < 30; ++frame)
-    dark.push_back(slam.process(in_the_dark(frame)));
-  EXPECT_EQ(dark[9].tracking, Tracking::kLost) << "a second after the light went out";
-  EXPECT_EQ(dark.back().resets, 1);
-  EXPECT_GE(slam.map().size(), mapped) << "what was mapped stays in the map";
-  const auto after = run(slam, 30, 40);
-  for (const FrameEstimate& estimate : after) {
-    expect_sound(estimate);
-    EXPECT_EQ(estimate.tracking, Tracking::kTracking);
-    EXPECT_EQ(estimate.resets, 1);
-  }
-  const Eigen::Vector3d moved = after.back().T_WS.T.p - after.front().T_WS.T.p;
-  const Eigen::Vector3d truly = world().T_WS(39).p - world().T_WS(30).p;
-  EXPECT_LT((moved - truly).norm(), 0.15 * truly.norm()) << "metric again, by the wearer";
-  EXPECT_LT(position_error(after.front(), 30), 3.0 * position_std(after.front()))
-      << "and no farther off than it says";
-  EXPECT_GT(position_std(after.front()), 10.0 * position_std(before.back()))
-      << "and it admits the way in the dark";
-}
-
-TEST(CollaborativeSlam, AFewMatchesFarFromTheirPredictionsAreNotBelieved) {
-  CollaborativeSlam slam = collaborative();
-  run(slam, 0, 12);
-  // Of the next image only a window around one landmark is left, 7 px to the right of where it was.
-  const FrameBundle next = world().without_wearer(12);
-  const auto predicted = slam.filter().predict_pixel(slam.filter().landmark_id(0));
-  ASSERT_TRUE(predicted);
-  FrameBundle window = in_the_dark(12);
-  auto image = std::make_shared<GrayImage>(*window.image);
-  constexpr int kHalf = 30;
-  constexpr int kShift = 7;
-  const int u = static_cast<int>(predicted->pixel.x());
-  const int v = static_cast<int>(predicted->pixel.y());
-  for (int y = std::max(0, v - kHalf); y < std::min(image->height, v + kHalf); ++y) {
-    for (int x = std::max(0, u - kHalf); x < std::min(image->width - kShift, u + kHalf); ++x)
-      image->row(y)[x + kShift] = next.image->row(y)[x];
-  }
-  window.image = image;
-  const FrameEstimate estimate = slam.process(window);
-  EXPECT_EQ(estimate.search.fused_pixels, 0);
-  EXPECT_GT(estimate.search.chi_squared, 0);
-}
-
-TEST(CollaborativeSlam, LostWithoutAWearerItGoesOnInTheUsualDepth) {
-  SlamOptions options = world().options();
-  options.mode = Mode::kMono;
-  CollaborativeSlam slam(world().camera(), options);
-  run(slam, 0, 12);
-  for (int frame = 12; frame < 30; ++frame)
-    slam.process(in_the_dark(frame));
-  const auto after = run_without_wearer(slam, 30, 40);
-  EXPECT_EQ(after.front().tracking, Tracking::kTracking);
-  EXPECT_EQ(after.back().tracking, Tracking::kTracking);
-  EXPECT_EQ(after.back().resets, 1);
-}
-
-TEST(WhyNoMatch, SaysThatNoWornImageOrNoPoseCame) {
-  CollaborativeSlam slam = collaborative();
-  run(slam, 0, 4);
-  FrameBundle bundle = world().without_wearer(4);
-  EXPECT_EQ(slam.process(bundle).pseudo_stereo_outcome, PseudoStereoOutcome::kNoWearerImage);
-  bundle = world().without_wearer(5);
-  bundle.wearer_pose_missing = true;
-  EXPECT_EQ(slam.process(bundle).pseudo_stereo_outcome, PseudoStereoOutcome::kNoWearerPose);
-  bundle = world().bundle(6);
-  bundle.wearer->has_orientation = false;  // and no AHRS
-  EXPECT_EQ(slam.process(bundle).pseudo_stereo_outcome, PseudoStereoOutcome::kNoWearerPose);
-}
-
-TEST(WhyNoMatch, SaysThatAWornFrameIsNotDue) {
-  SlamOptions options = world().options();
-  options.pseudo_stereo.interval_s = 0.25;
-  CollaborativeSlam slam(world().camera(), options);
-  std::vector<PseudoStereoOutcome> outcomes;
-  for (int frame = 0; frame < 5; ++frame)
-    outcomes.push_back(slam.process(world().bundle(frame)).pseudo_stereo_outcome);
-  using enum PseudoStereoOutcome;
-  EXPECT_EQ(outcomes, (std::vector{kMatched, kNotDue, kNotDue, kMatched, kNotDue}));  // 10 Hz
-}
-
-TEST(WhyNoMatch, SaysThatCamerasBackToBackShareNothing) {
-  CollaborativeSlam slam = collaborative();
-  run(slam, 0, 4);
-  FrameBundle bundle = world().bundle(4);
-  bundle.wearer->T_SF.T.q = Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitY());
-  bundle.wearer->T_SF.T.p = {0.0, 0.0, -0.5};
-  const FrameEstimate estimate = slam.process(bundle);
-  EXPECT_EQ(estimate.pseudo_stereo_outcome, PseudoStereoOutcome::kNoOverlap);
-  EXPECT_EQ(estimate.pseudo_stereo.described, 0);
-}
-
-TEST(WhyNoMatch, SaysWhereTheLastMatchFellWhenThePoseIsWrong) {
-  CollaborativeSlam slam = collaborative();
-  run(slam, 0, 4);
-  FrameBundle bundle = world().bundle(4);  // turned by far more than its covariance admits
-  bundle.wearer->T_SF.T.q = Eigen::AngleAxisd(0.15, Eigen::Vector3d::UnitX()) * bundle.wearer->T_SF.T.q;
-  const FrameEstimate estimate = slam.process(bundle);
-  EXPECT_LE(estimate.pseudo_stereo.fused, 2);
-  EXPECT_LT(position_error(estimate, 4), 0.03);
-  EXPECT_EQ(estimate.pseudo_stereo.described, sum_of_ends(estimate.pseudo_stereo));
-}
-
-class EveryMatching : public testing::TestWithParam<Matching> {};
-
-TEST_P(EveryMatching, CountsEachDescribedFeatureOnceAndKeepsTheScale) {
-  SlamOptions options = world().options();
-  options.pseudo_stereo.matching = GetParam();
-  options.map.max_landmarks = 30;  // soon full: the redundant ones must be counted, too
-  CollaborativeSlam slam(world().camera(), options);
-  FrameEstimate last;
-  int described = 0;
-  for (int frame = 0; frame < 20; ++frame) {
-    FrameBundle bundle = frame % 5 == 3 ? world().without_wearer(frame) : world().bundle(frame);
-    if (frame % 5 == 4) bundle.wearer->T_SF.T.p.x() += 0.02;
-    last = slam.process(bundle);
-    described += last.pseudo_stereo.described;
-    EXPECT_EQ(last.pseudo_stereo.described, sum_of_ends(last.pseudo_stereo)) << frame;
-    EXPECT_LE(last.landmarks, 50) << frame;
-  }
-  EXPECT_GT(described, 0);
-  EXPECT_LT(position_error(last, 19), 0.05 + 0.05 * world().path_length(0, 19));
-}
-
-INSTANTIATE_TEST_SUITE_P(Matchings, EveryMatching,
-                         testing::Values(Matching::kBand, Matching::kOrb, Matching::kSift, Matching::kSurf));
 
 TEST(CollaborativeSlam, AnOrientationFromTheAhrsDoesWhatOneInThePoseDoes) {
   CollaborativeSlam with_pose = collaborative();

@@ -30,6 +30,19 @@ FrameBundle bundle_of(const RecordedImage& recorded, std::uint64_t sequence) {
   return bundle;
 }
 
+/// The robot's images alone; it must track in each. The poses that have a truth, beside it.
+std::vector<PosePair> track_alone(CollaborativeSlam& slam, const RealSequence& sequence) {
+  std::vector<PosePair> pairs;
+  std::uint64_t frame = 0;
+  for (const RecordedImage& recorded : sequence.robot_images) {
+    const FrameEstimate estimate = slam.process(bundle_of(recorded, frame));
+    EXPECT_EQ(estimate.tracking, Tracking::kTracking) << frame;
+    if (recorded.T_WC) pairs.push_back({recorded.stamp, estimate.T_WS.T, *recorded.T_WC});
+    ++frame;
+  }
+  return pairs;
+}
+
 TEST(RealSequences, TagboxFromSurveyedCornersStaysWithinACentimetre) {
   const auto folder = data_folder() / "tagbox";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no real data: " << folder << " does not exist";
@@ -37,12 +50,7 @@ TEST(RealSequences, TagboxFromSurveyedCornersStaysWithinACentimetre) {
   SlamOptions options;
   options.mode = Mode::kMono;
   CollaborativeSlam slam(sequence.robot_camera, options, sequence.known_points);
-  std::vector<PosePair> pairs;
-  for (const RecordedImage& recorded : sequence.robot_images) {
-    const FrameEstimate estimate = slam.process(bundle_of(recorded, pairs.size()));
-    EXPECT_EQ(estimate.tracking, Tracking::kTracking) << pairs.size();
-    pairs.push_back({recorded.stamp, estimate.T_WS.T, *recorded.T_WC});
-  }
+  const std::vector<PosePair> pairs = track_alone(slam, sequence);
   EXPECT_EQ(pairs.size(), 210U);
   const double ate = statistics_of(position_errors(pairs)).rmse;
   RecordProperty("ate_m", std::to_string(ate));
@@ -150,12 +158,7 @@ TEST(RealSequences, TelloFliesAlongWithoutAnyScale) {
   SlamOptions options;
   options.start.assumed_depth = 3.0;
   CollaborativeSlam slam(sequence.robot_camera, options);
-  std::vector<PosePair> pairs;
-  for (const RecordedImage& recorded : sequence.robot_images) {
-    const FrameEstimate estimate = slam.process(bundle_of(recorded, pairs.size()));
-    EXPECT_EQ(estimate.tracking, Tracking::kTracking) << pairs.size();
-    if (recorded.T_WC) pairs.push_back({recorded.stamp, estimate.T_WS.T, *recorded.T_WC});
-  }
+  const std::vector<PosePair> pairs = track_alone(slam, sequence);
   const auto similarity = align(pairs, Alignment::kSim3);
   ASSERT_TRUE(similarity);
   const double ate = statistics_of(position_errors(aligned(pairs, *similarity))).rmse;
