@@ -57,6 +57,18 @@ ExitCode write(const sim::SimulatedRun& run, const Wish& wish, const std::atomic
   return report.stopped ? ExitCode::kDataLost : ExitCode::kDone;
 }
 
+ExitCode drive(const sim::CityScenario& scenario, const Wish& wish, const std::atomic<bool>& stop) {
+  const auto start = std::chrono::steady_clock::now();
+  const sim::CityRun run(scenario, wish.run.seed);
+  const sim::RunReport report = sim::write_dataset(run, wish.run, wish.folder, stop);
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+  std::printf("%s: %zu frames, %.0f m, %zu vehicles, %.1f s of world in %.1f s -> %s\n",
+              scenario.name.c_str(), report.robot_frames, scenario.length, run.traffic().size(),
+              report.duration, took.count(), wish.folder.c_str());
+  if (report.stopped) spdlog::warn("stopped: {} lacks pictures", wish.folder);
+  return report.stopped ? ExitCode::kDataLost : ExitCode::kDone;
+}
+
 ExitCode play(const sim::SimulatedRun& run, const Wish& wish, const std::atomic<bool>& stop) {
   spdlog::info("waiting up to {:g} s for a robot on domain {} (robot_agent --from-topics)", wish.stream.wait,
                wish.stream.dds.domain);
@@ -80,13 +92,22 @@ int main(int argc, char** argv) {
   Program program(
       {.name = "sim",
        .purpose = "Renders a scene with both agents, into a Cosight dataset folder or live to DDS.",
-       .examples = "  sim --config config/scenes/corridor_turn.yaml --out runs/turn --seed 1\n"
-                   "  sim --config config/scenes/room.yaml --out runs/room --set robot.path.speed_mps=0.5\n"
-                   "  sim --config config/scenes/corridor_turn.yaml --live --out runs/turn --domain 7\n"});
+       .examples =
+           "  sim --config config/scenes/corridor_turn.yaml --out runs/turn --seed 1\n"
+           "  sim --config config/scenes/room.yaml --out runs/room --set robot.path.speed_mps=0.5\n"
+           "  sim --config config/scenes/corridor_turn.yaml --live --out runs/turn --domain 7\n"
+           "  sim --config config/scenes/urban_canyon_1.yaml --out runs/canyon --set city.length_m=200\n"});
   Wish wish;
   add_options(program.command_line(), wish);
   program.option("--domain", "dds.domain", "with --live: DDS domain, 0 to 232");
   return program.run(argc, argv, [&](const ConfigFile& config, const std::atomic<bool>& stop) {
+    if (sim::is_city(config.root())) {
+      const sim::CityScenario city = sim::read_city_scenario(config.root());
+      config.refuse_unknown_keys();
+      if (wish.folder.empty() || wish.live)
+        throw ConfigError("a city is driven into a folder: give --out, not --live");
+      return drive(city, wish, stop);
+    }
     const sim::Scenario scenario = sim::read_scenario(config.root());
     wish.stream.dds = transport::read_participant_options(config.root().section("dds"), {});
     config.refuse_unknown_keys();

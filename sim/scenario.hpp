@@ -3,14 +3,11 @@
 #include <string>
 #include <vector>
 
-#include "shared/geometry/camera_model.hpp"
-#include "shared/geometry/pose.hpp"
+#include "sim/carrier.hpp"
 #include "sim/motion/gaze_plan.hpp"
 #include "sim/motion/path.hpp"
 #include "sim/motion/robot_motion.hpp"
 #include "sim/motion/wearer_motion.hpp"
-#include "sim/render/exposure.hpp"
-#include "sim/render/film.hpp"
 #include "sim/sensors/ahrs.hpp"
 #include "sim/sensors/imu.hpp"
 #include "sim/sensors/laser.hpp"
@@ -19,16 +16,6 @@
 #include "sim/world/floor_plan.hpp"
 
 namespace cosight::sim {
-
-/// A camera and how it is carried.
-struct CameraPlan {
-  CameraModel lens;
-  Pose T_BC;  ///< in the body that carries it (robot B, head H), optical frame
-  TimingPlan timing{.rate = 10.0};
-  ShutterPlan shutter;
-  int jpeg_quality = 90;
-  ExposurePlan exposure;
-};
 
 /// Everything a run consists of; the defaults are a small corridor with a turn.
 struct Scenario {
@@ -50,9 +37,5 @@ struct Scenario {
   TrackerPlan tracker;
   int known_points = 12;  ///< surveyed points in the first frame; 0: none
 };
-
-/// The pose of an optical frame (x right, y down, z forward) in a body (x forward, y left, z up): at `place`,
-/// turned to the left by `yaw` and up by `pitch` [rad].
-Pose optical_mount(const Eigen::Vector3d& place, double yaw, double pitch);
 
 }  // namespace cosight::sim

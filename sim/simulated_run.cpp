@@ -3,22 +3,10 @@
 #include <algorithm>
 #include <string>
 
-#include "shared/image/image_codec.hpp"
 #include "sim/known_points.hpp"
 #include "sim/render/view_overlap.hpp"
 
 namespace cosight::sim {
-
-ImageSample Carrier::sample(Film& film, std::size_t frame) const {
-  ImageSample sample{.stamp = ticks[frame].stamp,
-                     .sequence = frame,
-                     .encoding = ImageEncoding::kJpeg,
-                     .width = plan.lens.width,
-                     .height = plan.lens.height,
-                     .bytes = {}};
-  encode_jpeg(take(film, frame), plan.jpeg_quality, sample.bytes);
-  return sample;
-}
 
 SimulatedRun::SimulatedRun(const Scenario& scenario, std::uint64_t seed)
     : scenario_(scenario),

@@ -1,37 +1,16 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 #include "shared/dataset/known_point.hpp"
 #include "shared/dataset/sample.hpp"
-#include "sim/render/camera.hpp"
-#include "sim/render/exposure.hpp"
-#include "sim/render/film.hpp"
+#include "sim/carrier.hpp"
 #include "sim/render/view_overlap.hpp"
 #include "sim/scenario.hpp"
-#include "sim/sensors/sensor_clock.hpp"
 #include "sim/world_model.hpp"
 
 namespace cosight::sim {
-
-/// One of the two cameras on its way: what it sees, and when.
-struct Carrier {
-  const CameraPlan& plan;
-  Camera camera;
-  Exposure exposure;
-  Motion T_WC;
-  std::function<std::vector<Quad>(double time)> quads_at;
-  std::vector<Tick> ticks;  ///< of its frames
-
-  Film film() const { return {camera, exposure, plan.shutter}; }  ///< one a thread
-  GrayImage take(Film& film, std::size_t frame) const {
-    return film.take(quads_at(ticks[frame].time), T_WC, ticks[frame].time, frame);
-  }
-  /// Encoded, and with its stamp and number.
-  ImageSample sample(Film& film, std::size_t frame) const;
-};
 
 /// A scenario come to life with one seed: everything that its sensors say, computed when it is asked for.
 /// Const functions may be called from several threads.

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <filesystem>
 
+#include "sim/city_run.hpp"
 #include "sim/simulated_run.hpp"
 
 namespace cosight::sim {
@@ -27,6 +28,10 @@ struct RunReport {
 /// Throws DatasetError.
 RunReport write_dataset(const SimulatedRun& run, const RunOptions& options,
                         const std::filesystem::path& folder, const std::atomic<bool>& stop);
+
+/// The same for a drive through a city: the car's camera and IMU, and nobody else's.
+RunReport write_dataset(const CityRun& run, const RunOptions& options, const std::filesystem::path& folder,
+                        const std::atomic<bool>& stop);
 
 /// The same for a scenario; throws std::invalid_argument for one that cannot be built.
 RunReport write_dataset(const Scenario& scenario, const RunOptions& options,

@@ -6,9 +6,12 @@
 #include <vector>
 
 #include "experiments/urban_canyon/street.hpp"
-#include "experiments/urban_canyon/traffic.hpp"
+#include "sim/city/traffic.hpp"
 
 namespace cosight::experiments {
+
+using sim::TrafficOptions;
+using sim::Vehicle;
 
 /// A point that a camera can follow: of something still, or of a vehicle.
 struct CityPoint {

@@ -4,9 +4,11 @@
 #include <random>
 #include <vector>
 
-#include "experiments/urban_canyon/route.hpp"
+#include "sim/city/route.hpp"
 
 namespace cosight::experiments {
+
+using sim::Route;
 
 /// A corner of something that stands still, and the stretch of the route from which it can be seen.
 struct StreetPoint {

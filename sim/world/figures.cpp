@@ -6,23 +6,13 @@
 
 #include "sim/world/decorations.hpp"
 #include "sim/world/materials.hpp"
+#include "sim/world/sheet.hpp"
 #include "sim/world/solids.hpp"
 
 namespace cosight::sim {
 namespace {
 
 constexpr double kTexel = 0.004;  // [m]
-
-Quad sheet_of(Scene& scene, const cv::Mat& picture, float shade) {
-  GrayImage image{picture.cols, picture.rows, {}};
-  image.data.assign(picture.datastart, picture.dataend);
-  Quad quad;
-  quad.texture = scene.add_texture(std::move(image));
-  quad.u1 = static_cast<float>(picture.cols);
-  quad.v1 = static_cast<float>(picture.rows);
-  quad.shade = shade;
-  return quad;
-}
 
 cv::Mat face_picture() {
   // Around the head; the face is in the middle of the first quarter's border, at x = 0 of the ring.
@@ -52,12 +42,7 @@ void add_box(std::vector<Quad>& quads, const Pose& T_WX, const Eigen::Vector3d& 
   constexpr std::array<float, 6> kLight{0.95F, 0.85F, 0.9F, 0.9F, 1.1F, 0.5F};
   const std::vector<Quad> sides = box_sides(T_WX, size);
   for (std::size_t k = 0; k < sides.size(); ++k) {
-    Quad side = sides[k];
-    side.texture = sheet.texture;
-    side.u1 = sheet.u1;
-    side.v1 = sheet.v1;
-    side.shade = sheet.shade * kLight[k];
-    quads.push_back(side);
+    quads.push_back(wearing(sides[k], sheet, kLight[k]));
   }
 }
 

@@ -10,6 +10,7 @@
 #include "sim/world/decorations.hpp"
 #include "sim/world/lighting.hpp"
 #include "sim/world/materials.hpp"
+#include "sim/world/sheet.hpp"
 #include "sim/world/solids.hpp"
 
 namespace cosight::sim {
@@ -69,16 +70,7 @@ class Builder {
       decorate_wall(picture, texel, decoration, RandomStream(seed_, "decoration", scene_.quads.size()));
     }
     lighting_.bake(quad, picture);
-    set_texture(quad, picture);
-    scene_.quads.push_back(quad);
-  }
-
-  void set_texture(Quad& quad, const cv::Mat& picture) {
-    GrayImage image{picture.cols, picture.rows, {}};
-    image.data.assign(picture.datastart, picture.dataend);
-    quad.texture = scene_.add_texture(std::move(image));
-    quad.u1 = static_cast<float>(picture.cols);
-    quad.v1 = static_cast<float>(picture.rows);
+    scene_.quads.push_back(wearing(quad, sheet_of(scene_, picture)));
   }
 
   Quad wall_quad(const Walls& walls, std::size_t k) const {
@@ -136,8 +128,7 @@ class Builder {
     draw_poster(picture, {picture.cols / 5, picture.rows / 3, picture.cols / 4, picture.rows / 6}, random);
     draw_poster(picture, {picture.cols * 3 / 5, picture.rows * 2 / 5, picture.cols / 5, picture.rows / 5},
                 random);
-    Quad sheet;
-    set_texture(sheet, picture);
+    const Quad sheet = sheet_of(scene_, picture);
     const Pose T_WX{Eigen::Quaterniond::Identity(), {pillar.centre.x(), pillar.centre.y(), 0.0}};
     for (Quad& side : ring_sides(T_WX, pillar.radius, plan_.height, 20, sheet)) {
       const Eigen::Vector3d middle = side.origin + 0.5 * (side.edge_s + side.edge_t);

@@ -3,16 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 
 namespace cosight::sim {
 namespace {
 
-constexpr double kAmbient = 0.75;
-constexpr double kLamp = 0.55;  // brightness that one lamp adds at kReach
-constexpr double kReach = 1.5;  // [m]
-constexpr double kStep = 0.2;   // [m] between the points at which the light is computed
+constexpr double kStep = 0.2 / 1.5;  // between the points at which the light is computed, of the reach
 
 }  // namespace
+
+Lighting::Lighting(std::vector<Eigen::Vector3d> lamps, const Brightness& brightness)
+    : lamps_(std::move(lamps)), brightness_(brightness) {}
 
 Lighting::Lighting(const Eigen::Vector2d& low, const Eigen::Vector2d& high, double height, double spacing) {
   const auto count = [&](double length) { return static_cast<int>(std::ceil(length / spacing - 0.5)); };
@@ -25,23 +26,25 @@ Lighting::Lighting(const Eigen::Vector2d& low, const Eigen::Vector2d& high, doub
 }
 
 double Lighting::at(const Eigen::Vector3d& p, const Eigen::Vector3d& outward) const {
-  double light = kAmbient;
+  const auto& [ambient, strength, reach] = brightness_;
+  double light = ambient;
   for (const Eigen::Vector3d& lamp : lamps_) {
     const Eigen::Vector3d way = lamp - p;
     const double distance = way.norm();
-    if (distance > 4.0 * kReach) continue;
+    if (distance > 4.0 * reach) continue;
     // Half of it regardless of the direction: light that other walls pass on.
     const double facing = 0.5 + 0.5 * std::max(0.0, way.dot(outward) / std::max(0.05, distance));
-    const double fade = 1.0 - distance / (4.0 * kReach);
-    light += kLamp * facing * fade * fade / (1.0 + distance * distance / (kReach * kReach));
+    const double fade = 1.0 - distance / (4.0 * reach);
+    light += strength * facing * fade * fade / (1.0 + distance * distance / (reach * reach));
   }
   return std::min(light, 1.45);
 }
 
 void Lighting::bake(const Quad& quad, cv::Mat& picture) const {
   const Eigen::Vector3d outward = -quad.inward_normal().normalized();
-  const int columns = std::max(2, static_cast<int>(quad.edge_s.norm() / kStep));
-  const int rows = std::max(2, static_cast<int>(quad.edge_t.norm() / kStep));
+  const double step = kStep * brightness_.reach;
+  const int columns = std::max(2, static_cast<int>(quad.edge_s.norm() / step));
+  const int rows = std::max(2, static_cast<int>(quad.edge_t.norm() / step));
   cv::Mat light(rows, columns, CV_32F);
   for (int y = 0; y < rows; ++y) {
     for (int x = 0; x < columns; ++x) {

@@ -1,16 +1,28 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <opencv2/core/mat.hpp>
 #include <vector>
 
 #include "sim/world/scene.hpp"
 
+namespace cv {
+class Mat;
+}
+
 namespace cosight::sim {
 
-/// Lamps under the ceiling: brightness of a place is a bit of light from everywhere and what the lamps send.
+/// How much light there is; the default is a room's.
+struct Brightness {
+  double ambient = 0.75;  ///< from everywhere
+  double lamp = 0.55;     ///< what one lamp adds at `reach`
+  double reach = 1.5;     ///< [m]; nothing beyond four times that
+};
+
+/// Lamps: brightness of a place is a bit of light from everywhere and what the lamps send.
 class Lighting {
  public:
+  Lighting(std::vector<Eigen::Vector3d> lamps, const Brightness& brightness);
+
   /// Lamps on a grid of `spacing` [m] over the rectangle from `low` to `high`, at `height`.
   Lighting(const Eigen::Vector2d& low, const Eigen::Vector2d& high, double height, double spacing);
 
@@ -22,6 +34,7 @@ class Lighting {
 
  private:
   std::vector<Eigen::Vector3d> lamps_;
+  Brightness brightness_;
 };
 
 }  // namespace cosight::sim

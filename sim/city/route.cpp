@@ -1,4 +1,4 @@
-#include "experiments/urban_canyon/route.hpp"
+#include "sim/city/route.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include "shared/geometry/rotation.hpp"
 
-namespace cosight::experiments {
+namespace cosight::sim {
 namespace {
 
 using Eigen::Vector2d;
@@ -38,13 +38,12 @@ double uniform(std::mt19937_64& random, double low, double high) {
 
 }  // namespace
 
-Route::Route(double length, std::mt19937_64& random) : length_(length) {
+Route::Route(double length, std::mt19937_64& random, const RouteOptions& options) : length_(length) {
   // Amplitudes as of a worn city road: long waves of the ground, bumps that shake the car.
-  for (const auto& [amplitude, wavelength] : {std::pair{0.4, 170.0}, {0.05, 24.0}, {0.008, 6.5}}) {
+  for (const auto& [amplitude, wavelength] : {std::pair{options.hills, 170.0}, {0.05, 24.0}, {0.008, 6.5}}) {
     waves_.push_back({amplitude, 2.0 * pi / wavelength, uniform(random, 0.0, 2.0 * pi)});
   }
-  constexpr double kStartSpeed = 5.0;  // in motion: from rest, no window could know its scale yet [m/s]
-  phases_.push_back({.duration = 2.0, .v_0 = kStartSpeed, .v_1 = kStartSpeed});
+  phases_.push_back({.duration = 2.0, .v_0 = options.start_speed, .v_1 = options.start_speed});
   int turned = 0;
   while (phases_.back().s < length) {
     drive_street(phases_.back().s + uniform(random, 120.0, 260.0), random);
@@ -212,4 +211,4 @@ Vector3d Route::body_rate(double t) const {
   return quaternion_log(T_WB(t - kStep).q.conjugate() * T_WB(t + kStep).q) / (2.0 * kStep);
 }
 
-}  // namespace cosight::experiments
+}  // namespace cosight::sim

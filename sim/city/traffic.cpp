@@ -1,33 +1,54 @@
-#include "experiments/urban_canyon/traffic.hpp"
+#include "sim/city/traffic.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
-namespace cosight::experiments {
+namespace cosight::sim {
 namespace {
 
 using Eigen::Vector3d;
 using std::numbers::pi;
 using Course = std::function<Pose(double)>;
 
-constexpr double kLane = 3.4;     // width [m]
-constexpr double kGround = -0.9;  // below B [m]
+constexpr double kLane = 3.4;  // width [m]
 
 Eigen::Quaterniond yawed(double angle) {
   return Eigen::Quaterniond(Eigen::AngleAxisd(angle, Vector3d::UnitZ()));
 }
 
+/// A smooth step from 0 to 1 over u in [0, 1].
+double smooth(double u) {
+  u = std::clamp(u, 0.0, 1.0);
+  return u * u * (3.0 - 2.0 * u);
+}
+
 /// A place on the road, looking along it or against it.
 Pose on_road(const Route& route, double s, double lateral, bool along) {
-  return {yawed(route.heading(s) + (along ? 0.0 : pi)), route.beside(s, lateral, kGround)};
+  return {yawed(route.heading(s) + (along ? 0.0 : pi)), route.beside(s, lateral, kGroundBelowCar)};
 }
 
 /// Ahead in the same lane: goes as the car itself will `gap` seconds later, so that both stop and start
 /// together.
 Course ahead(const Route& route, double gap, double room) {
   return [&route, gap, room](double t) { return on_road(route, route.distance(t + gap) + room, 0.0, true); };
+}
+
+/// Ahead as above, from t_0 to t_1, but overtakes the car to get there and drives away after it: nobody
+/// appears or vanishes.
+Course passing_by(const Route& route, double gap, double room, double t_0, double t_1) {
+  return [&route, gap, room, t_0, t_1](double t) {
+    constexpr double kBehind = 15.0;                        // [m]
+    constexpr double kOvertakes = 9.0, kChangesLane = 3.0;  // [s]
+    constexpr double kAway = 1.5;                           // [m/s^2]
+    const double there = smooth((t - t_0) / kOvertakes);
+    const double in_lane = smooth((t - t_0 - kOvertakes + kChangesLane) / kChangesLane);
+    const double gone = std::max(0.0, t - t_1);
+    const double s = (1.0 - there) * (route.distance(t) - kBehind) +
+                     there * (route.distance(t + gap) + room) + 0.5 * kAway * gone * gone;
+    return on_road(route, s, -kLane * (1.0 - in_lane), true);
+  };
 }
 
 /// In the next lane, faster than the car by that share and beside it at t_0.
@@ -80,14 +101,17 @@ class Traffic {
 
   std::vector<Vehicle> draw() {
     draw_ahead();
-    at_random(options_.neighbours_per_minute,
-              [this](double t) { add(t - 15.0, t + 15.0, neighbour(route_, uniform(-0.25, 0.25), t)); });
-    at_random(options_.oncoming_per_minute, [this](double t) {
-      add(t - 8.0, t + 2.0, oncoming(route_, uniform(5.0, 12.0), uniform(0.0, 4.0), t));
+    at_random(options_.neighbours_per_minute, [this](double t) {
+      const double faster = uniform(-0.25, 0.25);
+      const double stays = options_.continuous ? std::clamp(6.0 / std::abs(faster), 15.0, 60.0) : 15.0;
+      add(t - stays, t + stays, neighbour(route_, faster, t));
     });
-    at_random(options_.turning_per_minute, [this](double t) {
+    at_random(options_.oncoming_per_minute, [this, far = options_.continuous ? 12.0 : 8.0](double t) {
+      add(t - far, t + 2.0, oncoming(route_, uniform(5.0, 12.0), uniform(0.0, 4.0), t));
+    });
+    at_random(options_.turning_per_minute, [this, more = options_.continuous ? 7.0 : 0.0](double t) {
       const double s_0 = route_.distance(t) + uniform(12.0, 25.0);
-      add(t - 7.0, t + 5.0, turning(route_, s_0, uniform(3.5, 7.0), side(), t));
+      add(t - 7.0 - more, t + 5.0 + more, turning(route_, s_0, uniform(3.5, 7.0), side(), t));
     });
     for (const Route::Corner& corner : route_.corners())
       draw_crossing(corner);
@@ -111,10 +135,17 @@ class Traffic {
     double t = 0.0;
     while (t < end_) {
       const double stays = uniform(12.0, 40.0);
-      const Course course = ahead(route_, uniform(0.8, 2.2), uniform(6.0, 10.0));
-      if (uniform(0.0, 1.0) < options_.ahead_share) add(t, t + stays, course);
+      const double room = uniform(6.0, 10.0);
+      const double gap = uniform(0.8, 2.2);
+      if (uniform(0.0, 1.0) < options_.ahead_share) add_ahead(gap, room, t, t + stays);
       t += stays;
     }
+  }
+
+  void add_ahead(double gap, double room, double from, double to) {
+    constexpr double kGone = 13.0;  // [s]
+    if (options_.continuous) return add(from, to + kGone, passing_by(route_, gap, room, from, to));
+    add(from, to, ahead(route_, gap, room));
   }
 
   void draw_crossing(const Route::Corner& corner) {
@@ -124,7 +155,8 @@ class Traffic {
       const double t_0 = t - uniform(1.0, 9.0);
       const double to = side();
       const double away = to > 0.0 ? 12.0 : 16.0;
-      add(t_0 - 6.0, t_0 + 6.0, crossing(route_, corner.begin, away, uniform(4.0, 9.0), to, t_0));
+      const double stays = options_.continuous ? 12.0 : 6.0;
+      add(t_0 - stays, t_0 + stays, crossing(route_, corner.begin, away, uniform(4.0, 9.0), to, t_0));
     }
   }
 
@@ -184,4 +216,4 @@ std::vector<Vehicle> make_traffic(const Route& route, const TrafficOptions& opti
   return Traffic(route, options, random).draw();
 }
 
-}  // namespace cosight::experiments
+}  // namespace cosight::sim

@@ -6,7 +6,13 @@
 
 #include "shared/geometry/pose.hpp"
 
-namespace cosight::experiments {
+namespace cosight::sim {
+
+struct RouteOptions {
+  double start_speed =
+      5.0;             ///< in motion, so that a window knows its scale at once; 0: it starts from rest [m/s]
+  double hills = 0.4;  ///< amplitude of the ground's long waves [m]
+};
 
 /// A car's drive through city streets as a smooth function of time: it starts, cruises, brakes, stops at
 /// lights and turns at corners. Everything has derivatives of its own, so that an IMU can be read off without
@@ -14,7 +20,7 @@ namespace cosight::experiments {
 class Route {
  public:
   /// `length` [m] of road; the same seed gives the same route.
-  Route(double length, std::mt19937_64& random);
+  Route(double length, std::mt19937_64& random, const RouteOptions& options = {});
 
   double length() const { return length_; }
   double duration() const;  ///< [s] until `length` has been driven
@@ -65,4 +71,4 @@ class Route {
   std::vector<Eigen::Vector2d> knots_;  ///< centre at multiples of kKnotStep
 };
 
-}  // namespace cosight::experiments
+}  // namespace cosight::sim

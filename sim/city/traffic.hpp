@@ -5,9 +5,11 @@
 #include <random>
 #include <vector>
 
-#include "experiments/urban_canyon/route.hpp"
+#include "sim/city/route.hpp"
 
-namespace cosight::experiments {
+namespace cosight::sim {
+
+constexpr double kGroundBelowCar = -0.9;  ///< z of the road where the car's body is at 0 [m]
 
 /// A vehicle V: a box on the road with texture on its faces. V: x forward, y left, z up, origin on the
 /// ground.
@@ -32,10 +34,11 @@ struct TrafficOptions {
   double oncoming_per_minute = 4.0;
   double turning_per_minute = 1.0;  ///< oncoming ones that turn into a side street
   double crossing_per_corner = 1.0;
-  double texture = 1.0;  ///< points on a vehicle, times the usual
+  double texture = 1.0;     ///< points on a vehicle, times the usual
+  bool continuous = false;  ///< nobody appears or vanishes in view: what a picture would show
 };
 
 /// All vehicles that the car meets on its route, which must outlive them.
 std::vector<Vehicle> make_traffic(const Route& route, const TrafficOptions& options, std::mt19937_64& random);
 
-}  // namespace cosight::experiments
+}  // namespace cosight::sim
