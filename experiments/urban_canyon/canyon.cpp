@@ -41,14 +41,14 @@ std::vector<vins::ImuSample> measure_imu(const Route& route, const CanyonOptions
 
 CanyonOptions urban_canyon_1() {
   CanyonOptions options;
-  options.calibrated_noise = 0.25;
+  options.calibrated_noise = options.front_end.noise = 0.1;
   options.traffic = {.ahead_share = 0.75,
                      .neighbours_per_minute = 1.0,
-                     .oncoming_per_minute = 6.0,
+                     .oncoming_per_minute = 5.0,
                      .turning_per_minute = 1.5,
                      .crossing_per_corner = 1.5,
                      .texture = 1.5};
-  options.front_end.loss = 0.0005;
+  options.front_end.loss = 0.0002;
   return options;
 }
 
@@ -61,12 +61,10 @@ CanyonOptions urban_canyon_2() {
                      .turning_per_minute = 3.0,
                      .crossing_per_corner = 3.0,
                      .texture = 2.5};
-  options.calibrated_noise = 0.32;
-  options.front_end.noise = 0.32;
+  options.calibrated_noise = options.front_end.noise = 0.19;
   options.front_end.noise_spread = 1.5;
-  options.front_end.loss = 0.001;
-  options.front_end.drift = 0.04;
-  options.front_end.slip = 0.001;
+  options.front_end.loss = 0.0003;
+  options.front_end.slip = 0.0005;
   return options;
 }
 

@@ -22,10 +22,10 @@ void write_errors(const fs::path& file, const std::vector<double>& rpe) {
 }
 
 void write_window(const fs::path& file, const vins::TrackRun& run, double focal_length) {
-  CsvFile csv(file, "t,g,n,misfit");
+  CsvFile csv(file, "t,g,n,misfit,acts");
   for (const vins::WindowReport& report : run.reports) {
     csv.row({to_seconds(report.stamp - run.estimate.front().stamp), report.geometry_factor,
-             report.mean_times_tracked, focal_length * report.typical_misfit});
+             report.mean_times_tracked, focal_length * report.typical_misfit, report.many_bend ? 1.0 : 0.0});
   }
   csv.close();
 }

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/calib3d.hpp>
 
 namespace cosight::experiments {
 namespace {
 
 using Eigen::Vector2d;
-using Eigen::Vector3d;
 
 Vector2d in_plane(const Vector2d& uv) {
   return (uv - 0.5 * Vector2d(CityView::kWidth, CityView::kHeight)) / CityView::kFocalLength;
@@ -42,36 +42,38 @@ Vector2d FrontEnd::gaussian(double sigma) {
   return {u, draw(random_)};
 }
 
-/// Distance from the epipolar line that the true motion since the last frame gives. A camera at rest has no
-/// such line: then the distance from where the feature was.
-bool FrontEnd::is_off_epipolar_line(const CityView& view, const Vector2d& before, const Vector2d& now) const {
-  constexpr double kAtRest = 0.02;  // [m]
-  const Pose T_now_before = view.T_WS().inverse() * T_WS_before_;
-  const Vector3d ray_before = T_now_before.q * in_plane(before).homogeneous();
-  const Vector3d ray_now = in_plane(now).homogeneous();
-  const double limit = options_.ransac_threshold / CityView::kFocalLength;
-  if (T_now_before.p.norm() < kAtRest) return (ray_before.hnormalized() - ray_now.head<2>()).norm() > limit;
-  const Vector3d line = T_now_before.p.cross(ray_before);
-  return std::abs(line.dot(ray_now)) > limit * line.head<2>().norm();
-}
-
-bool FrontEnd::keeps(const CityView& view, Track& track, const Vector2d& uv) {
+bool FrontEnd::keeps(Track& track, const Vector2d& uv) {
   constexpr double kSlip = 4.0;  // [px]
   if (happens(options_.loss * track.poorness)) return false;
-  track.drift += gaussian(options_.drift * track.poorness);
   if (happens(options_.slip * track.poorness)) track.drift += gaussian(kSlip);
-  const Vector2d now = uv + track.drift + gaussian(track.noise);
-  if (is_off_epipolar_line(view, track.seen, now)) return false;
-  track.seen = now;
+  track.before = track.seen;
+  track.seen = uv + track.drift + gaussian(track.noise);
   return true;
 }
 
 void FrontEnd::follow(const CityView& view) {
   for (auto track = tracks_.begin(); track != tracks_.end();) {
     const std::optional<Vector2d> uv = view.see(track->first);
-    const bool kept = uv && keeps(view, track->second, *uv);
-    track = kept ? std::next(track) : tracks_.erase(track);
+    track = uv && keeps(track->second, *uv) ? std::next(track) : tracks_.erase(track);
   }
+  reject_outliers();
+}
+
+void FrontEnd::reject_outliers() {
+  constexpr std::size_t kFewest = 8;
+  if (tracks_.size() < kFewest) return;
+  std::vector<cv::Point2d> before;
+  std::vector<cv::Point2d> now;
+  for (const auto& [city_point, track] : tracks_) {
+    before.emplace_back(track.before.x(), track.before.y());
+    now.emplace_back(track.seen.x(), track.seen.y());
+  }
+  std::vector<unsigned char> fits;
+  cv::findFundamentalMat(before, now, cv::FM_RANSAC, options_.ransac_threshold, options_.ransac_confidence,
+                         fits);
+  if (fits.size() != tracks_.size()) return;
+  std::size_t i = 0;
+  std::erase_if(tracks_, [&](const auto&) { return fits[i++] == 0; });
 }
 
 void FrontEnd::choose_new(const CityView& view) {
@@ -97,7 +99,6 @@ void FrontEnd::choose_new(const CityView& view) {
 std::vector<vins::TrackedFeature> FrontEnd::look(const CityView& view) {
   follow(view);
   choose_new(view);
-  T_WS_before_ = view.T_WS();
   std::vector<vins::TrackedFeature> features;
   for (const auto& [city_point, track] : tracks_) {
     features.push_back({track.id, {in_plane(track.seen), Vector2d::Zero()}});

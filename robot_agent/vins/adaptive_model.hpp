@@ -49,7 +49,7 @@ struct TrustOptions {
   double scale = 0.02;                    ///< s of V26
   double geometry_scale = 0.2;            ///< s of V26 without N; the paper gives none
   double huber_scale = 0.02;              ///< M_s of V30 [standard deviations]
-  double misfit_width = 4.0;   ///< guarded: misfit up to which nothing is taken off, in typical ones
+  double misfit_width = 1.5;              ///< guarded: misfit up to which nothing is taken off, in usual ones
   double many_bend_on = 0.35;  ///< guarded: share of features with more than that from which it acts
   double many_bend_off = 0.2;  ///< and under which it rests again
 };
@@ -58,7 +58,7 @@ struct TrustOptions {
 struct FeatureRecord {
   int times_tracked = 0;         ///< N
   double geometry_factor = 0.0;  ///< g of the frame that saw it; zero: not known
-  double relative_misfit = 0.0;  ///< its misfit in typical ones; zero: not known
+  double relative_misfit = 0.0;  ///< its misfit in usual ones; zero: not known
 };
 
 /// g (V22-V25): how badly the directions to the features fix a position, as PDOP does. `directions`: unit
@@ -67,7 +67,8 @@ double geometry_factor(const std::vector<Eigen::Vector3d>& directions);
 
 /// The guarded mode's factor of the fixed information, in (0, 1]:
 ///
-///   w = min(1, misfit_width / misfit)^4,   misfit in typical ones.
+///   w = min(1, misfit_width / misfit)^4,   misfit in those of the static features
+///   (Window::reference_misfit).
 ///
 /// V26 grows without bound with N and with 1/g. Where all features are poor, that pulls the balance from the
 /// IMU to vision (the paper's epoch C). Here a feature is at best trusted like in the fixed mode. g, which is

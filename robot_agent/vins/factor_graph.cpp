@@ -36,7 +36,7 @@ void FactorGraph::add_landmark(const Landmark& landmark) {
   const Observation& first = landmark.observations.front();
   const std::size_t host = window_.slot(first.frame);
   FeatureRecord feature{.times_tracked = landmark.times_tracked};
-  if (window_.many_bend) feature.relative_misfit = landmark.misfit / window_.typical_misfit;
+  if (window_.many_bend) feature.relative_misfit = landmark.misfit / window_.reference_misfit();
   feature.geometry_factor = window_.frames[host].geometry_factor;
   const Trust of_host = trust(options_.trust, feature);
   hosts_.emplace_back(of_host.sqrt_information, loss(of_host));

@@ -25,6 +25,18 @@ double misfit(const Window& window, const Landmark& landmark) {
   return count < kMinSightings ? 0.0 : std::sqrt(squares / count);
 }
 
+/// Slow, so that half a minute between moving vehicles changes little; slower up than down, since
+/// disturbances only add.
+void follow_usual_misfit(Window& window) {
+  constexpr double kUp = 0.03;   // [1/s]
+  constexpr double kDown = 0.1;  // [1/s]
+  if (window.usual_misfit <= 0.0) window.usual_misfit = window.typical_misfit;
+  const std::size_t count = window.frames.size();
+  if (count < 2) return;
+  const double dt = to_seconds(window.frames[count - 1].stamp - window.frames[count - 2].stamp);
+  window.usual_misfit *= std::exp(window.typical_misfit > window.usual_misfit ? kUp * dt : -kDown * dt);
+}
+
 }  // namespace
 
 void measure_misfits(Window& window, std::size_t min_observations) {
@@ -38,6 +50,7 @@ void measure_misfits(Window& window, std::size_t min_observations) {
   const auto middle = known.begin() + static_cast<std::ptrdiff_t>(known.size() / 2);
   std::nth_element(known.begin(), middle, known.end());
   window.typical_misfit = *middle;
+  follow_usual_misfit(window);
 }
 
 void watch_for_movers(Window& window, const TrustOptions& options) {
@@ -47,7 +60,7 @@ void watch_for_movers(Window& window, const TrustOptions& options) {
   for (const auto& [id, landmark] : window.landmarks) {
     if (landmark.misfit <= 0.0) continue;
     ++known;
-    if (landmark.misfit > options.misfit_width * window.typical_misfit) ++bent;
+    if (landmark.misfit > options.misfit_width * window.reference_misfit()) ++bent;
   }
   if (known < kMinKnown) return;
   const double share = static_cast<double>(bent) / known;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -61,6 +62,7 @@ struct Window {
   Pose T_BS;                    ///< camera in the body
   double time_offset = 0.0;     ///< image stamp + time_offset is the IMU's clock [s]
   double typical_misfit = 0.0;  ///< median over the landmarks [rad]; zero: not known
+  double usual_misfit = 0.0;    ///< the same as it is mostly, see misfit.hpp [rad]; zero: not known
   bool many_bend = false;       ///< see watch_for_movers()
   Prior prior;
 
@@ -74,6 +76,10 @@ struct Window {
 
   /// Adds the observations of the newest frame, which must already be in `frames`.
   void add_observations(const FeatureFrame& frame);
+
+  /// What a landmark's misfit is measured against: the typical one, or the usual one where most landmarks are
+  /// on vehicles [rad].
+  double reference_misfit() const { return std::min(typical_misfit, usual_misfit); }
 
   /// Seen often enough, and early enough, to be worth a place in the solution.
   bool is_used(const Landmark& landmark, std::size_t min_observations) const;

@@ -4,12 +4,15 @@ set grid lc rgb '#dddddd'
 modes = 'vins ac_g ac_gn ac_me ac_me_guarded'
 array colour[5] = ['#404040', '#e08e0b', '#2a9d4a', '#0060ad', '#d1495b']
 
-set terminal pngcairo size 900,700 font 'sans,10'
+set terminal pngcairo size 1100,700 font 'sans,10'
 set output 'figure9_11_trajectories.png'
 set title 'Figures 9 and 11: trajectories'
 set xlabel 'x [m]'
 set ylabel 'y [m]'
-set size ratio -1
+# A street may be a thousand times as long as it is wide: equal scales only where that leaves something to see.
+stats 'truth.csv' skip 1 using 2 name 'X' nooutput
+stats 'truth.csv' skip 1 using 3 name 'Y' nooutput
+if ((X_max - X_min) < 5 * (Y_max - Y_min) && (Y_max - Y_min) < 5 * (X_max - X_min)) { set size ratio -1 }
 set key outside right top
 plot 'truth.csv' skip 1 using 2:3 with lines lw 4 lc rgb '#bbbbbb' title 'truth', \
      for [i=1:5] 'path_'.word(modes, i).'.csv' skip 1 using 2:3 with lines lw 1.5 lc rgb colour[i] title word(modes, i) noenhanced
@@ -49,3 +52,11 @@ set title 'Figure 16: residual of the median feature without (ac_gn) and with th
 set ylabel 'residual [px]'
 plot 'window_ac_gn.csv' skip 1 using 1:4 with lines lw 1.3 lc rgb '#d1495b' title 'ac_gn' noenhanced, \
      'window_ac_me.csv' skip 1 using 1:4 with lines lw 1.3 lc rgb '#0060ad' title 'ac_me' noenhanced
+
+set output 'guard.png'
+set title 'The guarded mode: its error beside that of vins, and when it acts' noenhanced
+set ylabel 'RPE [m]'
+set style fill solid 0.3 noborder
+plot 'window_ac_me_guarded.csv' skip 1 using 1:($5 > 0 ? 1e3 : 0) with filledcurves y1=0 lc rgb '#f3d9a4' title 'acts', \
+     'rpe_vins.csv' skip 1 using 1:2 with lines lw 1.3 lc rgb colour[1] title 'vins' noenhanced, \
+     'rpe_ac_me_guarded.csv' skip 1 using 1:2 with lines lw 1.3 lc rgb colour[5] title 'ac_me_guarded' noenhanced

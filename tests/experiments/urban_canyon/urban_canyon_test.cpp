@@ -68,6 +68,13 @@ TEST(CanyonDrive, WithoutVehiclesKeepsEverythingElse) {
               1.0);
 }
 
+TEST(CanyonDrive, FollowsVehiclesLessWhereOutliersAreRejected) {
+  CanyonOptions options = short_drive(urban_canyon_2());
+  const double rejecting = make_canyon_drive(options, 5).moving_percent;
+  options.front_end.ransac_threshold = 1e3;
+  EXPECT_LT(rejecting, 0.9 * make_canyon_drive(options, 5).moving_percent);
+}
+
 TEST(CanyonDrive, HasNoFeatureOnAVehicleWhereThereIsNone) {
   EXPECT_THAT(make_canyon_drive(static_canyon(), 2).moving, IsEmpty());
 }

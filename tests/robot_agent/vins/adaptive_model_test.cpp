@@ -84,7 +84,8 @@ TEST(GuardedWeight, FallsWithTheFourthPowerOfWhatIsTooMuchMisfit) {
 /// A window in which `bent` of 20 landmarks lie ten times as far off as the others.
 Window window_with(int bent) {
   Window window;
-  window.typical_misfit = 1e-3;
+  window.typical_misfit = bent > 10 ? 1e-2 : 1e-3;
+  window.usual_misfit = 1e-3;
   for (FeatureId id = 0; id < 20; ++id)
     window.landmarks[id].misfit = id < static_cast<FeatureId>(bent) ? 1e-2 : 1e-3;
   return window;
@@ -104,6 +105,60 @@ TEST(WatchForMovers, ActsWhenManyBendAndRestsOnlyWhenFewDo) {
   window.landmarks = window_with(3).landmarks;
   watch_for_movers(window, options);
   EXPECT_FALSE(window.many_bend);
+}
+
+/// Before a red light, most of what is seen may be on vehicles.
+TEST(WatchForMovers, ActsWhereMostBend) {
+  Window window = window_with(17);
+  watch_for_movers(window, TrustOptions());
+  EXPECT_TRUE(window.many_bend);
+}
+
+/// A landmark that a camera which goes along x sees `off` radians beside where it is, up and down in turn.
+Window window_seen_badly(double off, double seconds_per_frame) {
+  Window window;
+  for (FrameId i = 0; i < 8; ++i) {
+    WindowFrame frame;
+    frame.id = i;
+    frame.stamp = from_seconds(seconds_per_frame * static_cast<double>(i));
+    frame.state.T_WB.p.x() = 0.2 * static_cast<double>(i);
+    window.frames.push_back(frame);
+  }
+  Landmark landmark;
+  landmark.lambda = 0.2;
+  landmark.has_depth = true;
+  for (const WindowFrame& frame : window.frames) {
+    const double up = frame.id == 0 ? 0.0 : (frame.id % 2 == 0 ? off : -off);
+    Observation seen;
+    seen.frame = frame.id;
+    seen.sighting.point = {-frame.state.T_WB.p.x() / 5.0, up};
+    seen.sighting.velocity.setZero();
+    landmark.observations.push_back(seen);
+  }
+  window.landmarks.emplace(1, landmark);
+  return window;
+}
+
+TEST(MeasureMisfits, TellsHowFarSightingsAreFromAPoint) {
+  Window window = window_seen_badly(1e-3, 0.1);
+  measure_misfits(window, 4);
+  EXPECT_NEAR(window.landmarks.at(1).misfit, 1e-3, 2e-5);
+  EXPECT_NEAR(window.typical_misfit, 1e-3, 2e-5);
+}
+
+TEST(MeasureMisfits, FollowsWhatIsUsualSlowly) {
+  constexpr double dt = 0.1;
+  Window window = window_seen_badly(1e-3, dt);
+  measure_misfits(window, 4);
+  const double quiet = window.usual_misfit;
+  window.landmarks = window_seen_badly(5e-3, dt).landmarks;
+  for (double t = 0.0; t < 10.0; t += dt)
+    measure_misfits(window, 4);
+  EXPECT_LT(window.usual_misfit, 1.5 * quiet) << "ten seconds between vehicles";
+  EXPECT_EQ(window.reference_misfit(), window.usual_misfit);
+  for (double t = 0.0; t < 120.0; t += dt)
+    measure_misfits(window, 4);
+  EXPECT_NEAR(window.usual_misfit, window.typical_misfit, 0.05 * window.typical_misfit) << "another camera";
 }
 
 }  // namespace
