@@ -60,37 +60,36 @@ vins::TrackRunOptions window_for_tracks() {
   return options;
 }
 
-void run_canyon(const Arguments& arguments, Summary& summary) {
+void run_canyon(const Arguments& arguments, const Workers& workers, Summary& summary) {
   CanyonOptions canyon = arguments.canyon == 1 ? urban_canyon_1() : urban_canyon_2();
   if (arguments.length > 0.0) canyon.length = arguments.length;
   const vins::TrackRunOptions window = window_for(canyon);
   const vins::TrustOptions& trust = window.window.solver.graph.trust;
   const std::vector<Method> methods = arguments.readings ? readings(trust) : modes(trust);
   const std::string name = "urban_canyon_" + std::to_string(arguments.canyon);
-  report(name, study_canyon(canyon, window, methods, arguments.seed, arguments.runs, arguments.threads),
+  report(name, study_canyon(canyon, window, methods, arguments.seed, arguments.runs, workers),
          arguments.canyon + 1, summary);
   if (!arguments.readings) {
     write_courses(arguments.folder, make_canyon_drive(canyon, arguments.seed).sequence, window, methods);
   }
 }
 
-void run_recorded(const Arguments& arguments, Summary& summary) {
+void run_recorded(const Arguments& arguments, const Workers& workers, Summary& summary) {
   const vins::TrackRunOptions window = window_for_tracks();
   const vins::TrustOptions& trust = window.window.solver.graph.trust;
   const std::vector<Method> methods = arguments.readings ? readings(trust) : modes(trust);
   report("urban_tracks_" + std::to_string(arguments.canyon),
-         study_tracks(vins::read_track_sequence(arguments.tracks), window, methods, arguments.threads), 0,
-         summary);
+         study_tracks(vins::read_track_sequence(arguments.tracks), window, methods, workers), 0, summary);
 }
 
-void run(const Arguments& arguments) {
+void run(const Arguments& arguments, const std::atomic<bool>& stop) {
   fs::create_directories(arguments.folder);
+  const Workers workers(arguments.threads, stop);
   Summary summary;
-  run_canyon(arguments, summary);
-  if (!arguments.tracks.empty()) run_recorded(arguments, summary);
+  run_canyon(arguments, workers, summary);
+  if (!arguments.tracks.empty()) run_recorded(arguments, workers, summary);
   if (arguments.consistency_runs > 0) {
-    const std::vector<ModeConsistency> modes =
-        study_consistency(arguments.consistency_runs, arguments.threads);
+    const std::vector<ModeConsistency> modes = study_consistency(arguments.consistency_runs, workers);
     std::fputs(table(modes, arguments.consistency_runs).c_str(), stdout);
     for (const ModeConsistency& mode : modes)
       summary.set("vins_consistency", mode.name, named(mode));
@@ -109,9 +108,9 @@ int main(int argc, char** argv) {
            "  experiment_urban_canyon --canyon 1 --length 400 --runs 2 --readings --out runs/readings\n"});
   Arguments arguments;
   add_options(program.command_line(), arguments);
-  return program.run(argc, argv, [&](const ConfigFile& config, const std::atomic<bool>&) {
+  return program.run(argc, argv, [&](const ConfigFile& config, const std::atomic<bool>& stop) {
     config.refuse_unknown_keys();
-    run(arguments);
+    run(arguments, stop);
     return ExitCode::kDone;
   });
 }

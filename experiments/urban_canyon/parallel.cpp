@@ -1,33 +1,70 @@
 #include "experiments/urban_canyon/parallel.hpp"
 
-#include <atomic>
 #include <exception>
 #include <mutex>
 #include <thread>
 #include <vector>
 
-namespace cosight::experiments {
+#include "shared/program/status_line.hpp"
 
-void in_parallel(int count, int threads, const std::function<void(int)>& task) {
+namespace cosight::experiments {
+namespace {
+
+/// Counts what is done, and keeps the first failure.
+class Progress {
+ public:
+  Progress(std::string what, int count) : what_(std::move(what)), count_(count) { show(); }
+
+  void add() {
+    const std::scoped_lock lock(mutex_);
+    ++done_;
+    show();
+  }
+  void fail(std::exception_ptr failure) {
+    const std::scoped_lock lock(mutex_);
+    if (!failure_) failure_ = std::move(failure);
+  }
+  void rethrow() const {
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+ private:
+  void show() {
+    if (line_.is_visible())
+      line_.show(what_ + ": " + std::to_string(done_) + " of " + std::to_string(count_));
+  }
+
+  std::string what_;
+  int count_;
+  int done_ = 0;
+  std::mutex mutex_;
+  std::exception_ptr failure_;
+  StatusLine line_;
+};
+
+}  // namespace
+
+void Workers::run(const std::string& what, int count, const std::function<void(int)>& task) const {
   std::atomic<int> next = 0;
-  std::mutex mutex;
-  std::exception_ptr failure;
+  Progress progress(what, count);
   const auto work = [&] {
     try {
-      for (int i = next++; i < count; i = next++)
+      for (int i = next++; i < count && !stop_; i = next++) {
         task(i);
+        progress.add();
+      }
     } catch (...) {
       next = count;
-      const std::scoped_lock lock(mutex);
-      if (!failure) failure = std::current_exception();
+      progress.fail(std::current_exception());
     }
   };
   {
     std::vector<std::jthread> workers;
-    for (int i = 0; i < threads; ++i)
+    for (int i = 0; i < threads_; ++i)
       workers.emplace_back(work);
   }
-  if (failure) std::rethrow_exception(failure);
+  progress.rethrow();
+  if (stop_) throw Interrupted(what + ": stopped before all were done; nothing is written");
 }
 
 }  // namespace cosight::experiments

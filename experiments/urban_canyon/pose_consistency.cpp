@@ -7,7 +7,6 @@
 
 #include "experiments/consistency/monte_carlo.hpp"
 #include "experiments/urban_canyon/gaussian.hpp"
-#include "experiments/urban_canyon/parallel.hpp"
 #include "experiments/urban_canyon/study.hpp"
 #include "robot_agent/vins/parameter_blocks.hpp"
 #include "robot_agent/vins/uncertainty.hpp"
@@ -90,9 +89,9 @@ std::vector<PoseCheck> check_pose(const ConsistencyOptions& options, unsigned se
   return checks;
 }
 
-std::vector<PoseCheck> monte_carlo(const ConsistencyOptions& options, int runs, int threads) {
+std::vector<PoseCheck> monte_carlo(const ConsistencyOptions& options, int runs, const Workers& workers) {
   std::vector<std::vector<PoseCheck>> all(static_cast<std::size_t>(runs));
-  in_parallel(runs, threads, [&](int i) {
+  workers.run(std::string("static drives, ") + to_string(options.trust.mode), runs, [&](int i) {
     all[static_cast<std::size_t>(i)] = check_pose(options, static_cast<unsigned>(i) + 1U);
   });
   std::vector<PoseCheck> mean(all.front().size());
@@ -106,7 +105,7 @@ std::vector<PoseCheck> monte_carlo(const ConsistencyOptions& options, int runs, 
   return mean;
 }
 
-std::vector<ModeConsistency> study_consistency(int runs, int threads) {
+std::vector<ModeConsistency> study_consistency(int runs, const Workers& workers) {
   const CanyonOptions canyon = static_canyon();
   const vins::TrackRunOptions window = window_for(canyon);
   const Band pose_band = average_band(6, runs);
@@ -114,7 +113,7 @@ std::vector<ModeConsistency> study_consistency(int runs, int threads) {
   std::vector<ModeConsistency> all;
   for (const Method& method : modes(window.window.solver.graph.trust)) {
     const std::vector<PoseCheck> checks =
-        monte_carlo({.trust = method.trust, .start = window.start}, runs, threads);
+        monte_carlo({.trust = method.trust, .start = window.start}, runs, workers);
     ModeConsistency mode{.name = method.name};
     const double share = 1.0 / static_cast<double>(checks.size());
     for (const PoseCheck& check : checks) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "experiments/urban_canyon/canyon.hpp"
+#include "experiments/urban_canyon/parallel.hpp"
 #include "robot_agent/vins/window_odometry.hpp"
 
 namespace cosight::experiments {
@@ -31,7 +32,7 @@ CanyonOptions static_canyon();
 std::vector<PoseCheck> check_pose(const ConsistencyOptions& options, unsigned seed);
 
 /// Averages over drives with seeds 1 to `runs`: of each check, in order.
-std::vector<PoseCheck> monte_carlo(const ConsistencyOptions& options, int runs, int threads);
+std::vector<PoseCheck> monte_carlo(const ConsistencyOptions& options, int runs, const Workers& workers);
 
 /// One mode over all drives and checks.
 struct ModeConsistency {
@@ -40,7 +41,7 @@ struct ModeConsistency {
   double pose_in_band = 0.0;                    ///< share of the checks whose average lies in its 95 % band
   double position_in_band = 0.0;
 };
-std::vector<ModeConsistency> study_consistency(int runs, int threads);
+std::vector<ModeConsistency> study_consistency(int runs, const Workers& workers);
 
 std::string table(const std::vector<ModeConsistency>& modes, int runs);
 std::vector<std::pair<std::string, double>> named(const ModeConsistency& mode);

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <cstdio>
 
-#include "experiments/urban_canyon/parallel.hpp"
-
 namespace cosight::experiments {
 namespace {
 
@@ -129,20 +127,21 @@ vins::TrackRunOptions window_for(const CanyonOptions& canyon) {
 }
 
 MethodStudy study_canyon(const CanyonOptions& canyon, const vins::TrackRunOptions& window,
-                         const std::vector<Method>& methods, unsigned first_seed, int drives, int threads) {
+                         const std::vector<Method>& methods, unsigned first_seed, int drives,
+                         const Workers& workers) {
   MethodStudy study = empty_study(methods, drives);
-  in_parallel(drives, threads, [&](int i) {
+  workers.run("drives", drives, [&](int i) {
     const CanyonDrive drive = make_canyon_drive(canyon, first_seed + static_cast<unsigned>(i));
-    for (std::size_t m = 0; m < methods.size(); ++m)
+    for (std::size_t m = 0; m < methods.size() && !workers.must_stop(); ++m)
       study.metrics[m][static_cast<std::size_t>(i)] = run(drive.sequence, window, methods[m]).metrics;
   });
   return study;
 }
 
 MethodStudy study_tracks(const vins::TrackSequence& sequence, const vins::TrackRunOptions& window,
-                         const std::vector<Method>& methods, int threads) {
+                         const std::vector<Method>& methods, const Workers& workers) {
   MethodStudy study = empty_study(methods, 1);
-  in_parallel(static_cast<int>(methods.size()), threads, [&](int m) {
+  workers.run("the recorded drive, methods", static_cast<int>(methods.size()), [&](int m) {
     const auto method = static_cast<std::size_t>(m);
     study.metrics[method].front() = run(sequence, window, methods[method]).metrics;
   });

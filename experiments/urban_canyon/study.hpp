@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "experiments/urban_canyon/canyon.hpp"
+#include "experiments/urban_canyon/parallel.hpp"
 #include "robot_agent/vins/track_run.hpp"
 
 namespace cosight::experiments {
@@ -35,13 +36,14 @@ vins::TrackRunOptions window_for(const CanyonOptions& canyon);
 /// One drive with one method.
 vins::TrackRun run(const vins::TrackSequence& sequence, vins::TrackRunOptions window, const Method& method);
 
-/// Drives of seeds `first_seed`, `first_seed` + 1, …, on `threads` threads.
+/// Drives of seeds `first_seed`, `first_seed` + 1, ….
 MethodStudy study_canyon(const CanyonOptions& canyon, const vins::TrackRunOptions& window,
-                         const std::vector<Method>& methods, unsigned first_seed, int drives, int threads);
+                         const std::vector<Method>& methods, unsigned first_seed, int drives,
+                         const Workers& workers);
 
 /// One recorded drive.
 MethodStudy study_tracks(const vins::TrackSequence& sequence, const vins::TrackRunOptions& window,
-                         const std::vector<Method>& methods, int threads);
+                         const std::vector<Method>& methods, const Workers& workers);
 
 /// One method over all drives.
 struct MethodSummary {

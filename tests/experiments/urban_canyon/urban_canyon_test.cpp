@@ -2,16 +2,42 @@
 #include <gtest/gtest.h>
 
 #include "experiments/urban_canyon/canyon.hpp"
+#include "experiments/urban_canyon/parallel.hpp"
 #include "experiments/urban_canyon/pose_consistency.hpp"
 
 namespace cosight::experiments {
 namespace {
 
+using testing::Each;
 using testing::IsEmpty;
 
 CanyonOptions short_drive(CanyonOptions options) {
   options.length = 120.0;
   return options;
+}
+
+TEST(Workers, DoEachTaskOnce) {
+  const std::atomic<bool> stop = false;
+  std::vector<int> done(50, 0);
+  Workers(3, stop).run("tasks", 50, [&](int i) { ++done[static_cast<std::size_t>(i)]; });
+  EXPECT_THAT(done, Each(1));
+}
+
+TEST(Workers, HandOnWhatATaskThrows) {
+  const std::atomic<bool> stop = false;
+  EXPECT_THROW(Workers(2, stop).run("tasks", 9,
+                                    [](int i) {
+                                      if (i == 4) throw std::out_of_range("four");
+                                    }),
+               std::out_of_range);
+}
+
+TEST(Workers, EndEarlyWhenAskedTo) {
+  std::atomic<bool> stop = false;
+  std::atomic<int> done = 0;
+  const auto task = [&](int) { stop = ++done >= 3; };
+  EXPECT_THROW(Workers(1, stop).run("tasks", 1000, task), Interrupted);
+  EXPECT_EQ(done, 3);
 }
 
 /// Velocity and acceleration are formulas of their own; here against differences of the position.
