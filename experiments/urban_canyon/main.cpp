@@ -91,6 +91,7 @@ void run(const Arguments& arguments, const std::atomic<bool>& stop) {
   if (arguments.consistency_runs > 0) {
     const std::vector<ModeConsistency> modes = study_consistency(arguments.consistency_runs, workers);
     std::fputs(table(modes, arguments.consistency_runs).c_str(), stdout);
+    write_nees(arguments.folder, modes);
     for (const ModeConsistency& mode : modes)
       summary.set("vins_consistency", mode.name, named(mode));
   }

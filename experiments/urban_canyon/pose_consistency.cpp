@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "experiments/consistency/monte_carlo.hpp"
+#include "experiments/csv_file.hpp"
 #include "experiments/urban_canyon/gaussian.hpp"
 #include "experiments/urban_canyon/study.hpp"
 #include "robot_agent/vins/parameter_blocks.hpp"
@@ -85,6 +86,7 @@ std::vector<PoseCheck> check_pose(const ConsistencyOptions& options, unsigned se
     if (i % static_cast<std::size_t>(options.every) != 0) continue;
     checks.push_back(
         check(odometry.window(), window_options.solver.graph, sequence.truth[i].T_WC, drive.velocities_W[i]));
+    checks.back().t = to_seconds(sequence.frames[i].stamp - sequence.frames.front().stamp);
   }
   return checks;
 }
@@ -97,6 +99,7 @@ std::vector<PoseCheck> monte_carlo(const ConsistencyOptions& options, int runs, 
   std::vector<PoseCheck> mean(all.front().size());
   for (const auto& checks : all) {
     for (std::size_t k = 0; k < mean.size(); ++k) {
+      mean[k].t = checks[k].t;
       mean[k].pose_nees += checks[k].pose_nees / runs;
       mean[k].position_nees += checks[k].position_nees / runs;
       mean[k].speed_error += checks[k].speed_error / runs;
@@ -114,7 +117,8 @@ std::vector<ModeConsistency> study_consistency(int runs, const Workers& workers)
   for (const Method& method : modes(window.window.solver.graph.trust)) {
     const std::vector<PoseCheck> checks =
         monte_carlo({.trust = method.trust, .start = window.start}, runs, workers);
-    ModeConsistency mode{.name = method.name};
+    ModeConsistency mode;
+    mode.name = method.name;
     const double share = 1.0 / static_cast<double>(checks.size());
     for (const PoseCheck& check : checks) {
       mode.pose_nees += share * check.pose_nees;
@@ -122,7 +126,8 @@ std::vector<ModeConsistency> study_consistency(int runs, const Workers& workers)
       mode.pose_in_band += pose_band.contains(check.pose_nees) ? share : 0.0;
       mode.position_in_band += position_band.contains(check.position_nees) ? share : 0.0;
     }
-    all.push_back(mode);
+    mode.course = checks;
+    all.push_back(std::move(mode));
   }
   return all;
 }
@@ -142,6 +147,15 @@ std::string table(const std::vector<ModeConsistency>& modes, int runs) {
     out += text.data();
   }
   return out;
+}
+
+void write_nees(const std::filesystem::path& folder, const std::vector<ModeConsistency>& modes) {
+  for (const ModeConsistency& mode : modes) {
+    CsvFile csv(folder / ("nees_" + mode.name + ".csv"), "t,pose_nees,position_nees,speed_error");
+    for (const PoseCheck& check : mode.course)
+      csv.row({check.t, check.pose_nees, check.position_nees, check.speed_error});
+    csv.close();
+  }
 }
 
 std::vector<std::pair<std::string, double>> named(const ModeConsistency& mode) {

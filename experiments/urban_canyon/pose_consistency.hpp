@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +13,7 @@ namespace cosight::experiments {
 
 /// What one window said of its own error at one time.
 struct PoseCheck {
+  double t = 0.0;              ///< since the start [s]
   double pose_nees = 0.0;      ///< of [dp (W), dtheta (B)]; 6 when the window is right about itself
   double position_nees = 0.0;  ///< 3
   double speed_error = 0.0;    ///< estimated over true speed, less one; nothing sensible at rest
@@ -40,10 +42,13 @@ struct ModeConsistency {
   double pose_nees = 0.0, position_nees = 0.0;  ///< averages
   double pose_in_band = 0.0;                    ///< share of the checks whose average lies in its 95 % band
   double position_in_band = 0.0;
+  std::vector<PoseCheck> course;  ///< averages over the drives, one a check
 };
 std::vector<ModeConsistency> study_consistency(int runs, const Workers& workers);
 
 std::string table(const std::vector<ModeConsistency>& modes, int runs);
+/// A file nees_<mode>.csv for each.
+void write_nees(const std::filesystem::path& folder, const std::vector<ModeConsistency>& modes);
 std::vector<std::pair<std::string, double>> named(const ModeConsistency& mode);
 
 }  // namespace cosight::experiments

@@ -60,3 +60,11 @@ set style fill solid 0.3 noborder
 plot 'window_ac_me_guarded.csv' skip 1 using 1:($5 > 0 ? 1e3 : 0) with filledcurves y1=0 lc rgb '#f3d9a4' title 'acts', \
      'rpe_vins.csv' skip 1 using 1:2 with lines lw 1.3 lc rgb colour[1] title 'vins' noenhanced, \
      'rpe_ac_me_guarded.csv' skip 1 using 1:2 with lines lw 1.3 lc rgb colour[5] title 'ac_me_guarded' noenhanced
+
+if (system("test -e nees_vins.csv && echo yes") eq "yes") {
+  set output 'nees.png'
+  set title 'NEES of the pose, mean of the static drives; expected 6' noenhanced
+  set ylabel 'NEES'
+  plot 6 lc rgb '#888888' dt 2 title 'expected', \
+       for [i=1:5] 'nees_'.word(modes, i).'.csv' skip 1 using 1:2 with linespoints lw 1.3 lc rgb colour[i] title word(modes, i) noenhanced
+}
