@@ -60,6 +60,7 @@ void Workers::run(const std::string& what, int count, const std::function<void(i
   };
   {
     std::vector<std::jthread> workers;
+    workers.reserve(static_cast<std::size_t>(threads_));
     for (int i = 0; i < threads_; ++i)
       workers.emplace_back(work);
   }

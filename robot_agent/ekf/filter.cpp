@@ -104,9 +104,9 @@ RigError::Vector Filter::rig_error() const {
   return state_.x().segment<RigError::kDim>(RigError::kOffset);
 }
 
-UncertainPose Filter::corrected_T_SF(const UncertainPose& sensed_T_SF) const {
-  if (!options_.rig_error.is_state) return sensed_T_SF;
-  const CorrectedRig rig = correct_rig(sensed_T_SF, options_.rig_error, rig_error());
+UncertainPose Filter::corrected_T_SF(const UncertainPose& T_SF_sensed) const {
+  if (!options_.rig_error.is_state) return T_SF_sensed;
+  const CorrectedRig rig = correct_rig(T_SF_sensed, options_.rig_error, rig_error());
   const RigError::Matrix P_eta =
       state_.covariance<RigError::kDim, RigError::kDim>(RigError::kOffset, RigError::kOffset);
   return {rig.T_SF,

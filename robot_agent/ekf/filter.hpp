@@ -109,7 +109,7 @@ class Filter {
 
   /// The free camera's pose as the state corrects what the sensors say, with what is left of its error.
   /// Without that error in the state: what the sensors say.
-  UncertainPose corrected_T_SF(const UncertainPose& sensed_T_SF) const;
+  UncertainPose corrected_T_SF(const UncertainPose& T_SF_sensed) const;
 
   // --- landmarks ------------------------------------------------------------------------------------------
   int landmark_count() const { return static_cast<int>(landmarks_.size()); }

@@ -10,11 +10,11 @@ double RigError::decay(double dt, const RigErrorOptions& options) {
   return options.correlation_time > 0.0 ? std::exp(-dt / options.correlation_time) : 0.0;
 }
 
-CorrectedRig correct_rig(const UncertainPose& sensed_T_SF, const RigErrorOptions& options,
+CorrectedRig correct_rig(const UncertainPose& T_SF_sensed, const RigErrorOptions& options,
                          const RigError::Vector& eta) {
-  const RigError::Matrix L = covariance_factor(sensed_T_SF.covariance);
+  const RigError::Matrix L = covariance_factor(T_SF_sensed.covariance);
   CorrectedRig rig;
-  rig.T_SF = sensed_T_SF.T;
+  rig.T_SF = T_SF_sensed.T;
   if (!options.is_state) {
     rig.noise_factor = L;
     return rig;
@@ -22,7 +22,7 @@ CorrectedRig correct_rig(const UncertainPose& sensed_T_SF, const RigErrorOptions
   const RigError::Matrix L_state = std::sqrt(1.0 - options.white_share) * L;
   const RigError::Vector error = L_state * eta;
   rig.T_SF.p += error.head<3>();
-  rig.T_SF.q = quaternion_exp(error.tail<3>()) * sensed_T_SF.T.q;
+  rig.T_SF.q = quaternion_exp(error.tail<3>()) * T_SF_sensed.T.q;
   rig.by_eta = L_state;
   rig.by_eta.bottomRows<3>() = left_jacobian(error.tail<3>()) * L_state.bottomRows<3>();
   rig.noise_factor = std::sqrt(options.white_share) * L;

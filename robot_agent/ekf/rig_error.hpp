@@ -40,7 +40,7 @@ struct CorrectedRig {
   RigError::Matrix noise_factor = RigError::Matrix::Zero();
 };
 /// `eta` is zero where the error is no state.
-CorrectedRig correct_rig(const UncertainPose& sensed_T_SF, const RigErrorOptions& options,
+CorrectedRig correct_rig(const UncertainPose& T_SF_sensed, const RigErrorOptions& options,
                          const RigError::Vector& eta);
 
 /// J with Exp(theta + d) = Exp(J d) Exp(theta) to first order.

@@ -178,7 +178,7 @@ std::optional<StereoView> CollaborativeSlam::wearer_view(const FrameBundle& bund
   view.image_F = bundle.wearer->image.get();
   view.rig = {filter_.camera_model(), bundle.wearer->camera, *T_SF, options_.search.pixel_sigma,
               options_.pseudo_stereo.wearer_pixel_sigma};
-  view.sensed_T_SF = *T_SF;
+  view.T_SF_sensed = *T_SF;
   view.overlap = estimate.overlap;
   view.near = std::max(options_.pseudo_stereo.near, expected_near(search_.predictions()));
   view.up_S = filter_.camera().q_WS.conjugate() * Eigen::Vector3d::UnitZ();
@@ -188,7 +188,7 @@ std::optional<StereoView> CollaborativeSlam::wearer_view(const FrameBundle& bund
 
 void CollaborativeSlam::learn_yaw_offset(const WearerView& wearer, const StereoView& view) {
   if (wearer.has_orientation || !wearer.q_WF) return;
-  const auto yaw = yaw_by_matches(view.sensed_T_SF, view.rig.T_SF, filter_.camera().q_WS.toRotationMatrix());
+  const auto yaw = yaw_by_matches(view.T_SF_sensed, view.rig.T_SF, filter_.camera().q_WS.toRotationMatrix());
   if (!yaw) return;
   const Eigen::Quaterniond turn(
       Eigen::AngleAxisd(yaw_offset_.yaw_WA(wearer.stamp).angle + yaw->angle, Eigen::Vector3d::UnitZ()));

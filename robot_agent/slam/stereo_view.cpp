@@ -7,7 +7,7 @@ namespace cosight::slam {
 
 ekf::StereoRig StereoView::sensed_rig() const {
   ekf::StereoRig sensed = rig;
-  sensed.T_SF = sensed_T_SF;
+  sensed.T_SF = T_SF_sensed;
   sensed.has_guess = true;
   sensed.T_SF_guess = rig.T_SF.T;
   return sensed;

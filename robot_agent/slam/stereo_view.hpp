@@ -15,7 +15,7 @@ namespace cosight::slam {
 struct StereoView {
   const GrayImage* image_F = nullptr;
   ekf::StereoRig rig;
-  UncertainPose sensed_T_SF;  ///< what the sensors say; the matches may make that of `rig` better
+  UncertainPose T_SF_sensed;  ///< what the sensors say; the matches may make that of `rig` better
   /// For measurements: what the sensors know of Cf's pose, and the better one to linearise at. The matches
   /// that made it better are measured themselves, and must not count twice.
   ekf::StereoRig sensed_rig() const;
