@@ -46,6 +46,7 @@ void add_options(CLI::App& app, Arguments& arguments) {
 
 void report(const std::string& name, const MethodStudy& study, int paper_table, Summary& summary) {
   std::fputs((table(name, study, paper_table) + "\n").c_str(), stdout);
+  std::fflush(stdout);  // the next one takes minutes
   const std::vector<MethodSummary> methods = summarise(study);
   for (std::size_t m = 0; m < methods.size(); ++m)
     summary.set(name, study.names[m], named(methods[m]));

@@ -32,11 +32,12 @@ set multiplot layout 2,1 title 'Figures 14 and 15: what V26 weighs with, and the
 set y2tics
 set ytics nomirror
 set ylabel 'RPE [m]'
-set y2range [0:*]
+set y2range [0:5]
 set title 'geometry factor g and the error of ac_g' noenhanced
 set y2label 'g'
 plot 'window_ac_g.csv' skip 1 using 1:2 axes x1y2 with lines lc rgb '#8fb8de' title 'g', \
      'rpe_ac_g.csv' skip 1 using 1:2 with lines lw 1.5 lc rgb colour[2] title 'ac_g' noenhanced
+set y2range [0:*]
 set title 'times tracked N and the error of ac_gn' noenhanced
 set y2label 'N'
 plot 'window_ac_gn.csv' skip 1 using 1:3 axes x1y2 with lines lc rgb '#8fb8de' title 'N, mean', \
@@ -50,9 +51,13 @@ set terminal pngcairo size 1100,420 font 'sans,10'
 set output 'figure16_residuals.png'
 set title 'Figure 16: residual of the median feature without (ac_gn) and with the M-estimator (ac_me)' noenhanced
 set ylabel 'residual [px]'
+set logscale y
+set yrange [0.1:*]
 plot 'window_ac_gn.csv' skip 1 using 1:4 with lines lw 1.3 lc rgb '#d1495b' title 'ac_gn' noenhanced, \
      'window_ac_me.csv' skip 1 using 1:4 with lines lw 1.3 lc rgb '#0060ad' title 'ac_me' noenhanced
 
+unset logscale y
+set yrange [0:*]
 set output 'guard.png'
 set title 'The guarded mode: its error beside that of vins, and when it acts' noenhanced
 set ylabel 'RPE [m]'
