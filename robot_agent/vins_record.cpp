@@ -66,6 +66,8 @@ void VinsRecord::report(outbox::YamlText& text, const vins::VinsCounters& counte
       .value("images_without_imu", counters.images_without_imu)
       .value("imu_samples", counters.imu_samples)
       .value("imu_refused", counters.imu_refused)
+      .value("sightings", counters.sightings)
+      .value("outlier_sightings", counters.outlier_sightings)
       .value("solve_ms_median", solve_ms_.quantile(0.5))
       .value("solve_ms_p99", solve_ms_.quantile(0.99))
       .value("marginalise_ms_median", marginalise_ms_.quantile(0.5));

@@ -96,10 +96,16 @@ void VinsThread::process(const WaitingImage& next, const std::vector<ImuSample>&
     refused += vins_.add_imu(sample) ? 0 : 1;
   const auto image = next.decode();
   std::optional<VinsEstimate> estimate;
-  if (image) estimate = vins_.process(tracker_.track(next.stamp, *image));
+  if (image) {
+    const FeatureFrame frame = tracker_.track(next.stamp, *image);
+    lengths_.add(frame);
+    estimate = vins_.process(frame);
+  }
   {
     const std::lock_guard lock(mutex_);
     counters_.imu_refused += refused;
+    counters_.sightings = lengths_.sightings();
+    counters_.outlier_sightings = lengths_.outlier_sightings();
     if (!estimate) ++counters_.images_undecodable;
     if (estimate && estimate->status == VinsStatus::kWaitingForImu) ++counters_.images_without_imu;
   }

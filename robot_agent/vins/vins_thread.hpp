@@ -11,6 +11,7 @@
 
 #include "robot_agent/vins/adaptive_vins.hpp"
 #include "robot_agent/vins/feature_tracker.hpp"
+#include "robot_agent/vins/track_lengths.hpp"
 
 namespace cosight::vins {
 
@@ -30,7 +31,9 @@ struct VinsCounters {
   std::uint64_t images_out_of_order = 0;
   std::uint64_t images_without_imu = 0;  ///< the IMU's samples did not reach around them
   std::uint64_t imu_samples = 0;
-  std::uint64_t imu_refused = 0;  ///< not newer than the last, not finite, or nobody took them
+  std::uint64_t imu_refused = 0;        ///< not newer than the last, not finite, or nobody took them
+  std::uint64_t sightings = 0;          ///< of features, in all images
+  std::uint64_t outlier_sightings = 0;  ///< of features lost before they were seen ten times
 };
 
 /// AdaptiveVins with its front end in a thread of its own. An image is decoded and processed as soon as IMU
@@ -69,6 +72,7 @@ class VinsThread {
   VinsThreadOptions options_;
   Found found_;
   FeatureTracker tracker_;
+  TrackLengths lengths_;
   AdaptiveVins vins_;
 
   mutable std::mutex mutex_;
