@@ -4,6 +4,9 @@
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
+#include <string>
+
+#include "shared/image/image_codec.hpp"
 
 namespace cosight::vins {
 
@@ -38,6 +41,23 @@ ImuNoise flight_noise() {
           .gyroscope = 1.6968e-4,
           .accelerometer_walk = 3.0e-3,
           .gyroscope_walk = 1.9393e-5};
+}
+
+std::vector<FeatureFrame> flight_features(FeatureTracker& tracker) {
+  std::ifstream stream(flight() / "cam0.csv");
+  std::vector<FeatureFrame> frames;
+  std::string line;
+  std::getline(stream, line);
+  while (std::getline(stream, line)) {
+    std::replace(line.begin(), line.end(), ',', ' ');
+    std::istringstream fields(line);
+    int index = 0;
+    Stamp stamp = 0;
+    std::string name;
+    fields >> index >> stamp >> name;
+    frames.push_back(tracker.track(stamp, read_image(flight() / "cam0" / name)));
+  }
+  return frames;
 }
 
 }  // namespace cosight::vins

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "robot_agent/vins/feature_tracker.hpp"
 #include "robot_agent/vins/imu.hpp"
 
 namespace cosight::vins {
@@ -15,5 +16,8 @@ std::vector<ImuSample> flight_imu();
 
 /// What its calibration says of the IMU's noise.
 ImuNoise flight_noise();
+
+/// The features of its images, followed by `tracker`.
+std::vector<FeatureFrame> flight_features(FeatureTracker& tracker);
 
 }  // namespace cosight::vins

@@ -3,8 +3,6 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "robot_agent/vins/adaptive_vins.hpp"
 #include "robot_agent/vins/feature_tracker.hpp"
@@ -12,29 +10,10 @@
 #include "shared/evaluation/error_statistics.hpp"
 #include "shared/evaluation/evaluation.hpp"
 #include "shared/evaluation/trajectory_reader.hpp"
-#include "shared/image/image_codec.hpp"
 #include "tests/robot_agent/vins/flight_data.hpp"
 
 namespace cosight::vins {
 namespace {
-
-std::vector<std::pair<Stamp, std::string>> read_images(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  std::vector<std::pair<Stamp, std::string>> images;
-  std::string line;
-  std::getline(stream, line);
-  while (std::getline(stream, line)) {
-    std::istringstream fields(line);
-    std::string index;
-    std::string stamp;
-    std::string name;
-    std::getline(fields, index, ',');
-    std::getline(fields, stamp, ',');
-    fields >> name;
-    images.emplace_back(std::stoll(stamp), name);
-  }
-  return images;
-}
 
 VinsOptions euroc_options() {
   VinsOptions options;
@@ -51,16 +30,16 @@ TEST(RealFlight, InitialisesWithinTwoSecondsAndStaysWithinThreeCentimetres) {
   for (const ImuSample& sample : flight_imu())
     vins.add_imu(sample);
   FeatureTracker tracker(camera, {});
-  const auto images = read_images(flight() / "cam0.csv");
-  ASSERT_EQ(images.size(), 90U);
+  const std::vector<FeatureFrame> frames = flight_features(tracker);
+  ASSERT_EQ(frames.size(), 90U);
 
   Trajectory estimate;
-  for (const auto& [stamp, name] : images) {
-    const VinsEstimate now = vins.process(tracker.track(stamp, read_image(flight() / "cam0" / name)));
-    if (now.status == VinsStatus::kTracking) estimate.push_back({stamp, now.report->state.T_WB * T_BS});
+  for (const FeatureFrame& frame : frames) {
+    const VinsEstimate now = vins.process(frame);
+    if (now.status == VinsStatus::kTracking) estimate.push_back({frame.stamp, now.report->state.T_WB * T_BS});
   }
   ASSERT_FALSE(estimate.empty());
-  const double until_ready = to_seconds(estimate.front().stamp - images.front().first);
+  const double until_ready = to_seconds(estimate.front().stamp - frames.front().stamp);
   EvaluationOptions compare;
   compare.alignment = Alignment::kSe3;
   const Evaluation result = evaluate(estimate, read_trajectory(flight() / "gt_cam0.tum"), compare);
