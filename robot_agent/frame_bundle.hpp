@@ -6,6 +6,7 @@
 #include "shared/dataset/sample.hpp"
 #include "shared/geometry/camera_model.hpp"
 #include "shared/geometry/uncertain_pose.hpp"
+#include "shared/geometry/uncertain_twist.hpp"
 #include "shared/image/gray_image.hpp"
 
 namespace cosight {
@@ -30,7 +31,9 @@ struct FrameBundle {
   std::shared_ptr<const GrayImage> image;  ///< null when the frame could not be decoded: predict only
   std::optional<WearerView> wearer;        ///< nothing when no worn frame is near enough in time
   bool wearer_pose_missing = false;  ///< a worn frame was near enough, but no pose of it: `wearer` is nothing
-  double decode_ms = 0.0;            ///< wall time of decoding both images [ms]
+  /// Of the SLAM camera: its mean since the bundle before, measured without this image. Nothing: not known.
+  std::optional<UncertainTwist> twist;
+  double decode_ms = 0.0;  ///< wall time of decoding both images [ms]
 };
 
 }  // namespace cosight

@@ -40,7 +40,8 @@ OfflineRun::OfflineRun(const RobotOptions& options, const outbox::RunDescription
       record_(outbox::RunFolder(options.run_dir), description) {
   if (has_slam(options.estimators)) slam_.emplace(input_.camera, options.slam, input_.known_points);
   if (vins_plan_) {
-    vins_.emplace(*vins_plan_, input_.camera, *input_.T_BS, record_.folder(), nullptr);
+    vins_.emplace(*vins_plan_, input_.camera, *input_.T_BS, record_.folder(), nullptr,
+                  options.vins_guides_slam);
     intake_.feed(*vins_, options.estimators);
   }
 }
@@ -90,6 +91,7 @@ void OfflineRun::push(recording::RecordedEvent&& event) {
 void OfflineRun::process_ready(const Progress& progress) {
   while (auto bundle = inbox_.pop(0)) {
     bundle->decode_ms = 0.0;  // the only thing in it that another run would not repeat
+    if (vins_) vins_->guide(*bundle);
     const FrameEstimate estimate = slam_->process(*bundle);
     intake_.robot_is_at(estimate);
     record_.add(*bundle, estimate);

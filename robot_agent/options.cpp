@@ -60,6 +60,7 @@ RobotOptions read_robot_options(const ConfigNode& root) {
   options.wearer = read_wearer_section(root.section("wearer"));
   options.estimators = read_estimators(root);
   options.vins = read_vins_options(root.section("vins"));
+  options.vins_guides_slam = root.section("vins").boolean("guide_slam", options.vins_guides_slam);
   const ConfigNode start = root.section("start");
   options.wait_for_wearer = start.number("wait_for_wearer", options.wait_for_wearer, 0.0, 86'400.0);
   options.wait_for_sensors = start.number("wait_for_sensors", options.wait_for_sensors, 0.0, 86'400.0);

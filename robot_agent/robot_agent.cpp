@@ -59,7 +59,8 @@ RobotAgent::RobotAgent(const RobotOptions& options, const outbox::RunDescription
     wearer_.emplace(participant_, inbox_, intake_, !input_.has_wearer_pose && intake_.takes_tracked_poses());
   }
   if (vins_plan_) {
-    vins_.emplace(*vins_plan_, input_.camera, *input_.T_BS, record_.folder(), &participant_);
+    vins_.emplace(*vins_plan_, input_.camera, *input_.T_BS, record_.folder(), &participant_,
+                  options.vins_guides_slam);
     intake_.feed(*vins_, options.estimators);
   }
   spdlog::info("robot '{}' on domain {}: {}", options.agent_id, options.dds.domain, sensors_.description());
@@ -71,7 +72,7 @@ std::vector<std::string> RobotAgent::run(const Progress& progress) {
   sensors_.start();
   while (!inbox_.finished()) {
     constexpr Stamp kPatience = kNanosecondsPerSecond / 10;
-    if (const auto bundle = inbox_.pop(kPatience)) process(*bundle, progress);
+    if (auto bundle = inbox_.pop(kPatience)) process(*bundle, progress);
     if (!slam_ && progress) progress(vins_->status());
   }
   return finish();
@@ -91,7 +92,8 @@ void RobotAgent::wait_for_wearer() {
       options_.dds.domain);
 }
 
-void RobotAgent::process(const FrameBundle& bundle, const Progress& progress) {
+void RobotAgent::process(FrameBundle& bundle, const Progress& progress) {
+  if (vins_) vins_->guide(bundle);
   const FrameEstimate estimate = slam_->process(bundle);
   intake_.robot_is_at(estimate);
   record_.add(bundle, estimate);

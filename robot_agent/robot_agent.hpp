@@ -38,7 +38,7 @@ class RobotAgent {
 
  private:
   void wait_for_wearer();
-  void process(const FrameBundle& bundle, const Progress& progress);
+  void process(FrameBundle& bundle, const Progress& progress);
   std::vector<std::string> finish();
 
   RobotOptions options_;

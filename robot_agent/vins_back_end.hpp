@@ -1,11 +1,14 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "robot_agent/frame_bundle.hpp"
+#include "robot_agent/vins/motion_guide.hpp"
 #include "robot_agent/vins_record.hpp"
 #include "shared/dataset/sample.hpp"
 #include "shared/transport/participant.hpp"
@@ -18,13 +21,18 @@ namespace cosight::robot {
 /// robot's IMU. What it estimates goes to `vins.tum` and, live, to rt/cosight/robot/vins/odometry.
 class VinsBackEnd {
  public:
-  /// `options`: as planned for the input, see vins_plan.hpp. `participant`: null without DDS. Throws
-  /// OutputError or TransportError.
+  /// `options`: as planned for the input, see vins_plan.hpp. `participant`: null without DDS. `guides_slam`:
+  /// guide() has an effect. Throws OutputError or TransportError.
   VinsBackEnd(const vins::VinsThreadOptions& options, const CameraModel& camera, const Pose& T_BS,
-              const std::filesystem::path& run_folder, const transport::Participant* participant);
+              const std::filesystem::path& run_folder, const transport::Participant* participant,
+              bool guides_slam);
 
   void push(const ImuSample& sample);
   void push(const ImageSample& frame);
+
+  /// Tells slam's next bundle how the camera moved since the one before, when VINS is to guide slam. Offline
+  /// it waits for what VINS makes of that one's image, so that the answer is always the same.
+  void guide(FrameBundle& bundle);
 
   /// No more samples will come: waits for what is being processed.
   void finish();
@@ -44,6 +52,9 @@ class VinsBackEnd {
   vins::VinsThreadOptions options_;
   VinsRecord record_;
   std::optional<transport::Publisher<OdometrySample>> publisher_;
+  std::optional<vins::MotionGuide> guide_;
+  std::optional<Stamp> last_bundle_;  ///< that guide() saw
+  std::uint64_t frames_guided_ = 0;
   mutable std::mutex mutex_;
   std::string state_ = "waiting for images";
   vins::VinsThread thread_;  ///< last: it uses all of the above

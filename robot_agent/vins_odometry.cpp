@@ -1,6 +1,5 @@
 #include "robot_agent/vins_odometry.hpp"
 
-#include "robot_agent/vins/uncertainty.hpp"
 #include "shared/geometry/rotation.hpp"
 
 namespace cosight::robot {
@@ -38,7 +37,7 @@ StateJacobian twist_jacobian(const Matrix3d& R_WB, const Vector3d& v_W, const Po
 
 }  // namespace
 
-OdometrySample odometry_of(const vins::Window& window, const vins::GraphOptions& graph,
+OdometrySample odometry_of(const vins::Window& window, const vins::UncertainNavState& known,
                            const vins::ImuNoise& noise) {
   const vins::WindowFrame& newest = window.frames.back();
   const Pose& T_BS = window.T_BS;
@@ -53,7 +52,7 @@ OdometrySample odometry_of(const vins::Window& window, const vins::GraphOptions&
   sample.v_S = R_SB * (R_WB.transpose() * newest.state.v_W + omega_B.cross(T_BS.p));
   sample.omega_S = R_SB * omega_B;
 
-  const auto P = vins::state_covariance(window, graph, newest.id);
+  const auto& P = known.covariance;
   const StateJacobian J_pose = pose_jacobian(R_WB, T_BS.p);
   const StateJacobian J_twist = twist_jacobian(R_WB, newest.state.v_W, T_BS);
   sample.T_WS.covariance = J_pose * P * J_pose.transpose();

@@ -38,8 +38,9 @@ Filter::Filter(const CameraModel& camera, const FilterOptions& options)
       state_(state_capacity(options)),
       innovation_(state_capacity(options), row_capacity(options)),
       covariance_update_(state_capacity(options), row_capacity(options)),
-      gates_(options.gate_probability, 3),
-      x_prior_(Eigen::VectorXd::Zero(state_capacity(options))) {
+      gates_(options.gate_probability, 6),
+      x_prior_(Eigen::VectorXd::Zero(state_capacity(options))),
+      twist_P_Ht_(state_capacity(options), 6) {
   const auto landmarks = static_cast<std::size_t>(options.max_landmarks);
   landmarks_.reserve(landmarks);
   clones_.reserve(static_cast<std::size_t>(options.max_clones));

@@ -18,6 +18,7 @@
 #include "robot_agent/ekf/rig_error.hpp"
 #include "shared/geometry/camera_model.hpp"
 #include "shared/geometry/uncertain_pose.hpp"
+#include "shared/geometry/uncertain_twist.hpp"
 
 namespace cosight::ekf {
 
@@ -167,6 +168,11 @@ class Filter {
                                     const StereoRig* wearer = nullptr);
   /// Fuses all measurements that pass their own gate. The report is valid until the next update.
   const UpdateReport& update(std::span<const Measurement> measurements, const StereoRig* wearer = nullptr);
+  /// Fuses a twist of the camera that was measured without the present image, its mean since the frame
+  /// before: after a constant-velocity step that is what the state's velocities are,
+  ///
+  ///   h = [R_WS^T v_W, omega_S].
+  TwistReport update_twist(const UncertainTwist& measured);
 
   // --- for evaluation -------------------------------------------------------------------------------------
   const GaussianState& state() const { return state_; }
@@ -210,6 +216,7 @@ class Filter {
   std::optional<Fusion> iterate(std::span<const Measurement> measurements, const StereoRig* wearer,
                                 int max_iterations);
   void finish_update();
+  void normalise_poses();
   RigError::Vector rig_error() const;
   void predict_rig_error(double dt);
   void set_wearer(const StereoRig* rig);
@@ -232,6 +239,7 @@ class Filter {
   std::vector<char> keep_;
   std::vector<LinearisedMeasurement> relinearised_;
   Eigen::VectorXd x_prior_;
+  Eigen::Matrix<double, Eigen::Dynamic, 6> twist_P_Ht_;
 };
 
 }  // namespace cosight::ekf

@@ -212,6 +212,10 @@ const UpdateReport& Filter::update(std::span<const Measurement> measurements, co
 
 void Filter::finish_update() {
   covariance_update_.downdate(state_);
+  normalise_poses();
+}
+
+void Filter::normalise_poses() {
   normalise_quaternion(CameraState::kOrientation);
   for (const Block& clone : clones_)
     normalise_quaternion(clone.offset + CameraState::kOrientation);

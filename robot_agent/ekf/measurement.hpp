@@ -62,4 +62,11 @@ struct UpdateReport {
   int iterations = 0;
 };
 
+/// What a measured twist did.
+struct TwistReport {
+  double nis = 0.0;   ///< six degrees of freedom
+  double gate = 0.0;  ///< chi-squared limit it was held against
+  Outcome outcome = Outcome::kIllConditioned;
+};
+
 }  // namespace cosight::ekf

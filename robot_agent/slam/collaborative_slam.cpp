@@ -121,6 +121,7 @@ bool CollaborativeSlam::advance_to(const FrameBundle& bundle) {
   if (!has_map_) return false;
   const ekf::CameraState before = filter_.camera();
   filter_.predict(dt);
+  if (bundle.twist && dt > 0.0) filter_.update_twist(*bundle.twist);
   const auto& predictions = search_.predict(filter_, tracks_);
   if (dt <= 0.0 || !bundle.image || !is_wide(predictions)) return false;
   const auto T_WS = motion_prior_.find(tracker_, filter_, tracks_);

@@ -1,6 +1,5 @@
 #include "robot_agent/vins/vins_thread.hpp"
 
-#include <optional>
 #include <utility>
 
 namespace cosight::vins {
@@ -56,6 +55,14 @@ void VinsThread::push_image(Stamp stamp, Decode decode) {
   changed_.notify_all();
 }
 
+void VinsThread::wait_for(Stamp stamp) {
+  if (!options_.never_drop) return;
+  std::unique_lock lock(mutex_);
+  const auto is_in_work = [&] { return in_work_ && *in_work_ <= stamp; };
+  const auto waits = [&] { return can_process() && images_.front().stamp <= stamp; };
+  changed_.wait(lock, [&] { return !is_in_work() && !waits(); });
+}
+
 void VinsThread::finish() {
   {
     const std::lock_guard lock(mutex_);
@@ -81,11 +88,14 @@ void VinsThread::run() {
     if (!can_process()) break;
     const WaitingImage next = std::move(images_.front());
     images_.pop_front();
+    in_work_ = next.stamp;
     const std::vector<ImuSample> imu = std::exchange(imu_, {});
     lock.unlock();
     changed_.notify_all();
     process(next, imu);
     lock.lock();
+    in_work_.reset();
+    changed_.notify_all();
   }
   counters_.images_without_imu += images_.size();
 }

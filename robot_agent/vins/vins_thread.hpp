@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <vector>
 
@@ -54,6 +55,10 @@ class VinsThread {
   void push_imu(const ImuSample& sample);
   void push_image(Stamp stamp, Decode decode);
 
+  /// With `never_drop`: until no image up to `stamp` waits any more, but for those that the IMU's samples do
+  /// not reach yet.
+  void wait_for(Stamp stamp);
+
   /// No more samples will come: processes what waits, as far as the IMU reaches, and ends the thread.
   void finish();
 
@@ -83,6 +88,7 @@ class VinsThread {
   Stamp last_imu_ = 0;
   Stamp last_image_ = 0;
   bool ended_ = false;
+  std::optional<Stamp> in_work_;
   std::thread thread_;
 };
 

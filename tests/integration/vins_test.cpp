@@ -68,6 +68,51 @@ TEST_F(VinsSession, RunsAloneAndCountsWhatWasMissingBeforeItStarted) {
   EXPECT_GT(files.summary("vins.imu_samples"), 700);
 }
 
+TEST_F(VinsSession, GuidesSlamTheSameWayEachTime) {
+  const fs::path recording = import_small_scene();
+  const fs::path alone = offline_run(recording, "alone", {});
+  const Arguments guided{"--set", "vins.enable=true", "--set", "vins.guide_slam=true"};
+  const fs::path first = offline_run(recording, "first", guided);
+  const fs::path again = offline_run(recording, "again", guided);
+  for (const char* name : {"trajectory.tum", "frames.csv", "vins.tum"})
+    EXPECT_EQ(text_of(first / name), text_of(again / name)) << name;
+  EXPECT_NE(text_of(first / "trajectory.tum"), text_of(alone / "trajectory.tum"));
+  const int tracking = RunFiles(first).summary("vins.frames_tracking");
+  EXPECT_GT(tracking, 0);
+  EXPECT_EQ(RunFiles(first).summary("vins_guide.frames"), tracking - 1);
+}
+
+TEST_F(VinsSession, CountsImuSamplesThatCannotBeUsedAndTracksOn) {
+  const fs::path dataset = in_folder("dataset");
+  copy_small_scene(dataset);
+  change_rows(dataset / "robot/imu.csv", [](std::size_t row, std::vector<std::string>& cells) {
+    if (row == 300) cells[2] = "nan";
+    if (row == 310) cells[0] = "1000500000000";  // a clock that goes back, for one sample
+    if (row == 320) cells[5] = "inf";
+  });
+  const Ending ending = robot(dataset, {"--only", "vins", "--rate", "0"})->wait();
+  EXPECT_EQ(ending.exit_code, 3) << ending.err;
+  EXPECT_NE(ending.err.find("3 samples of the robot's own input"), std::string::npos) << ending.err;
+  const RunFiles files = run_files();
+  EXPECT_EQ(files.summary("own_sensors.not_finite"), 2);
+  EXPECT_EQ(files.summary("own_sensors.stamp_went_back"), 1);
+  EXPECT_EQ(files.summary("vins.images_without_imu"), 0);
+  EXPECT_GT(files.summary("vins.frames_tracking"), 0);
+}
+
+TEST_F(VinsSession, CountsImagesThatTheImuDoesNotReach) {
+  const fs::path dataset = in_folder("dataset");
+  copy_small_scene(dataset);
+  change_rows(dataset / "robot/imu.csv", [](std::size_t row, std::vector<std::string>& cells) {
+    if (row > 600) cells.clear();  // silent after three of the four seconds
+  });
+  const Ending ending = robot(dataset, {"--only", "vins", "--rate", "0"})->wait();
+  const RunFiles files = run_files();
+  EXPECT_EQ(files.summary("vins.images"), kFrames);
+  EXPECT_EQ(files.summary("vins.images_without_imu") + files.summary("vins.images_dropped"), 10);
+  EXPECT_EQ(ending.exit_code, files.summary("vins.images_dropped") > 0 ? 3 : 0) << ending.err;
+}
+
 TEST_F(VinsSession, RefusesToStartWithoutAnImu) {
   const fs::path dataset = in_folder("dataset");
   copy_small_scene(dataset);
