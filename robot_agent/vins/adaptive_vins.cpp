@@ -32,6 +32,11 @@ VinsEstimate AdaptiveVins::process(const FeatureFrame& frame) {
 }
 
 VinsEstimate AdaptiveVins::initialise_with(const FeatureFrame& frame) {
+  // Frames on both sides of a gap are not connected: those before it are worth nothing any more.
+  if (!waiting_.empty() && imu_.longest_gap(last_frame_, frame.stamp) > options_.failure.max_imu_gap) {
+    waiting_.clear();
+    last_outcome_ = InitialisationOutcome::kTooFewFrames;
+  }
   VinsEstimate estimate{.status = VinsStatus::kInitialising, .initialisation = last_outcome_};
   UnplacedFrame next{frame, std::nullopt};
   if (!waiting_.empty()) {
@@ -60,16 +65,24 @@ VinsEstimate AdaptiveVins::initialise_with(const FeatureFrame& frame) {
 
 VinsEstimate AdaptiveVins::track(const FeatureFrame& frame) {
   VinsEstimate estimate{.status = VinsStatus::kTracking, .initialisation = InitialisationOutcome::kReady};
+  if (imu_.longest_gap(last_frame_, frame.stamp) > options_.failure.max_imu_gap) {
+    last_frame_ = frame.stamp;
+    fail(Failure::kImuGap, estimate);
+    return estimate;
+  }
   estimate.report = odometry_.process(frame, imu_.between(last_frame_, frame.stamp));
   last_frame_ = frame.stamp;
-  estimate.failure = detect_failure(*estimate.report, options_.failure);
-  if (estimate.failure != Failure::kNone) {
-    estimate.status = VinsStatus::kFailed;
-    tracking_ = false;
-    last_outcome_ = InitialisationOutcome::kTooFewFrames;
-    ++restarts_;
-  }
+  const Failure failure = detect_failure(*estimate.report, options_.failure);
+  if (failure != Failure::kNone) fail(failure, estimate);
   return estimate;
+}
+
+void AdaptiveVins::fail(Failure failure, VinsEstimate& estimate) {
+  estimate.failure = failure;
+  estimate.status = VinsStatus::kFailed;
+  tracking_ = false;
+  last_outcome_ = InitialisationOutcome::kTooFewFrames;
+  ++restarts_;
 }
 
 }  // namespace cosight::vins

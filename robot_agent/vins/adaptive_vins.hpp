@@ -35,7 +35,8 @@ struct VinsEstimate {
 };
 
 /// Monocular visual-inertial odometry from a cold start: initialises by itself, tracks, notices when it has
-/// failed, and initialises again (W then starts anew). A pure function of its samples and frames.
+/// failed, and initialises again (W then starts anew). A gap in the IMU's samples is a failure as well. A
+/// pure function of its samples and frames.
 class AdaptiveVins {
  public:
   AdaptiveVins(const VinsOptions& options, const Pose& T_BS)
@@ -52,6 +53,7 @@ class AdaptiveVins {
  private:
   VinsEstimate initialise_with(const FeatureFrame& frame);
   VinsEstimate track(const FeatureFrame& frame);
+  void fail(Failure failure, VinsEstimate& estimate);
 
   VinsOptions options_;
   Pose T_BS_;

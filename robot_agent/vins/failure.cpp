@@ -12,6 +12,8 @@ const char* to_string(Failure failure) {
       return "lost tracks";
     case Failure::kImpossibleBias:
       return "impossible bias";
+    case Failure::kImuGap:
+      return "IMU gap";
     case Failure::kJumped:
       break;
   }

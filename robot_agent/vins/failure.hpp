@@ -10,6 +10,7 @@ enum class Failure {
   kSolverFailed,    ///< no usable solution
   kLostTracks,      ///< hardly any feature of the frame before was found again
   kImpossibleBias,  ///< no working IMU has one so large
+  kImuGap,          ///< no IMU sample for too long: what it would have said is not known
   kJumped,          ///< moved or turned against the IMU's prediction farther than it can be wrong
 };
 const char* to_string(Failure failure);
@@ -20,6 +21,7 @@ struct FailureOptions {
   double max_gyroscope_bias = 1.0;      ///< [rad/s]
   double max_position_jump = 3.0;       ///< from the prediction [m]
   double max_rotation_jump = 0.5;       ///< likewise [rad]
+  double max_imu_gap = 0.1;             ///< [s] without a sample; longer ones are not bridged
 };
 
 /// Whether the newest state can be believed.

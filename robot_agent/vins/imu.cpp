@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <iterator>
 
 namespace cosight::vins {
 namespace {
@@ -21,6 +22,18 @@ bool ImuBuffer::push(const ImuSample& sample) {
 
 bool ImuBuffer::covers(Stamp from, Stamp to) const {
   return !samples_.empty() && samples_.front().stamp <= from && samples_.back().stamp >= to;
+}
+
+double ImuBuffer::longest_gap(Stamp from, Stamp to) const {
+  assert(covers(from, to));
+  Stamp longest = 0;
+  auto after = std::lower_bound(samples_.begin(), samples_.end(), from + 1, older);
+  for (; after != samples_.end(); ++after) {
+    const Stamp before = std::prev(after)->stamp;
+    if (before >= to) break;
+    longest = std::max(longest, after->stamp - before);
+  }
+  return to_seconds(longest);
 }
 
 std::vector<ImuSample> ImuBuffer::between(Stamp from, Stamp to) const {

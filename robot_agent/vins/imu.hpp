@@ -38,6 +38,9 @@ class ImuBuffer {
 
   bool covers(Stamp from, Stamp to) const;
 
+  /// Longest time between two neighbouring samples anywhere in (from, to] [s]. Needs covers(from, to).
+  double longest_gap(Stamp from, Stamp to) const;
+
   /// The samples in [from, to], with the first and the last interpolated to these very instants, so that
   /// spans that follow each other leave no gap. Needs covers(from, to) and from < to.
   std::vector<ImuSample> between(Stamp from, Stamp to) const;

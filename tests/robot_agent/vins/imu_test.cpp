@@ -40,6 +40,16 @@ TEST(ImuBuffer, RefusesWhatIsOldOrNotFinite) {
   EXPECT_FALSE(buffer.covers(10, 20));
 }
 
+TEST(ImuBuffer, FindsTheLongestGapOfASpanAndNoOther) {
+  ImuBuffer buffer;
+  for (const double t : {0.0, 0.01, 0.05, 0.06, 0.09, 0.10})
+    buffer.push(sample(from_seconds(t), t));
+  EXPECT_NEAR(buffer.longest_gap(from_seconds(0.0), from_seconds(0.1)), 0.04, 1e-9);
+  EXPECT_NEAR(buffer.longest_gap(from_seconds(0.05), from_seconds(0.1)), 0.03, 1e-9);
+  EXPECT_NEAR(buffer.longest_gap(from_seconds(0.0), from_seconds(0.005)), 0.01, 1e-9);
+  EXPECT_NEAR(buffer.longest_gap(from_seconds(0.02), from_seconds(0.03)), 0.04, 1e-9) << "it lies in the gap";
+}
+
 TEST(ImuBuffer, KeepsWhatInterpolationStillNeeds) {
   ImuBuffer buffer;
   for (int i = 0; i < 5; ++i)
