@@ -64,7 +64,11 @@ bool refine(Window& window, const InitialisationOptions& options, const WindowOp
   SolverOptions solver = window_options.solver;
   solver.max_iterations = options.max_iterations;
   solver.graph.trust.mode = TrustMode::kFixed;
-  window.prior = start_prior(window.frames.front(), options.prior);
+  // In proportion to the speed, or the prior itself would tell the scale of a fast start.
+  StartUncertainty prior = options.prior;
+  prior.velocity += window.frames.front().state.v_W.norm();
+  window.prior = start_prior(window.frames.front(), prior);
+  add_calibration_prior(window.prior, window, solver.graph, window_options.calibration);
   triangulate_all(window, solver.graph.min_observations, window_options.default_distance);
   const SolveReport report = solve(window, solver);
   drop_failed_landmarks(window, window_options);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "robot_agent/vins/calibration_prior.hpp"
 #include "robot_agent/vins/keyframe.hpp"
 #include "robot_agent/vins/window_solver.hpp"
 
@@ -13,6 +14,7 @@ struct WindowOptions {
   double default_distance = 5.0;          ///< of a landmark that cannot be triangulated yet [m]
   double max_gyroscope_change = 0.1;      ///< bias change that makes the IMU be integrated again [rad/s]
   double max_accelerometer_change = 0.1;  ///< likewise [m/s^2]
+  CalibrationUncertainty calibration;     ///< where the calibration is refined
   KeyframeOptions keyframe;
   SolverOptions solver;
 };

@@ -12,4 +12,7 @@ namespace cosight::vins {
 Eigen::Matrix<double, 15, 15> state_covariance(const Window& window, const GraphOptions& options,
                                                FrameId frame);
 
+/// Covariance of T_BS as [dp (B), dtheta (S)], given everything in the window. It must be estimated.
+Eigen::Matrix<double, 6, 6> extrinsics_covariance(const Window& window, const GraphOptions& options);
+
 }  // namespace cosight::vins

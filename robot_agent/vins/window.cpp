@@ -16,6 +16,12 @@ void Window::add_observations(const FeatureFrame& frame) {
   for (const TrackedFeature& feature : frame.features) {
     Landmark& landmark = landmarks[feature.id];
     ++landmark.times_tracked;
+    // A front end knows no velocity of a corner it has just found; to the next frame it is the same as from
+    // there.
+    if (landmark.times_tracked == 2 && landmark.observations.size() == 1 &&
+        landmark.observations.front().sighting.velocity.isZero(0.0)) {
+      landmark.observations.front().sighting.velocity = feature.sighting.velocity;
+    }
     landmark.observations.push_back({frames.back().id, feature.sighting, landmark.times_tracked});
   }
 }

@@ -45,6 +45,7 @@ void WindowOdometry::start(const FeatureFrame& frame, const NavState& state,
   first.stamp = frame.stamp;
   first.state = state;
   window_.prior = start_prior(first, uncertainty);
+  add_calibration_prior(window_.prior, window_, options_.solver.graph, options_.calibration);
   window_.frames.push_back(std::move(first));
   window_.add_observations(frame);
 }
