@@ -62,7 +62,8 @@ set output 'guard.png'
 set title 'The guarded mode: its error beside that of vins, and when it acts' noenhanced
 set ylabel 'RPE [m]'
 set style fill solid 0.3 noborder
-plot 'window_ac_me_guarded.csv' skip 1 using 1:($5 > 0 ? 1e3 : 0) with filledcurves y1=0 lc rgb '#f3d9a4' title 'acts', \
+set y2range [0:1]
+plot 'window_ac_me_guarded.csv' skip 1 using 1:5 axes x1y2 with filledcurves y=0 lc rgb '#f3d9a4' title 'acts', \
      'rpe_vins.csv' skip 1 using 1:2 with lines lw 1.3 lc rgb colour[1] title 'vins' noenhanced, \
      'rpe_ac_me_guarded.csv' skip 1 using 1:2 with lines lw 1.3 lc rgb colour[5] title 'ac_me_guarded' noenhanced
 
