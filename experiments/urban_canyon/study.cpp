@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <numeric>
 
 namespace cosight::experiments {
 namespace {
@@ -130,8 +131,10 @@ MethodStudy study_canyon(const CanyonOptions& canyon, const vins::TrackRunOption
                          const std::vector<Method>& methods, unsigned first_seed, int drives,
                          const Workers& workers) {
   MethodStudy study = empty_study(methods, drives);
+  study.moving_percent.assign(static_cast<std::size_t>(drives), 0.0);
   workers.run("drives", drives, [&](int i) {
     const CanyonDrive drive = make_canyon_drive(canyon, first_seed + static_cast<unsigned>(i));
+    study.moving_percent[static_cast<std::size_t>(i)] = drive.moving_percent;
     for (std::size_t m = 0; m < methods.size() && !workers.must_stop(); ++m)
       study.metrics[m][static_cast<std::size_t>(i)] = run(drive.sequence, window, methods[m]).metrics;
   });
@@ -178,6 +181,11 @@ std::string table(const std::string& title, const MethodStudy& study, int paper_
                  s.rpe_mean, s.rpe_std, s.rpe_max, s.rpe_frame_mean, s.drift_percent, s.improvement_percent,
                  s.improvement_sigma, s.outlier_percent, s.worst_max_ratio);
     text += paper_cells(study.names[m], paper_table) + "\n";
+  }
+  if (!study.moving_percent.empty()) {
+    const double sum = std::accumulate(study.moving_percent.begin(), study.moving_percent.end(), 0.0);
+    text += line("%.1f %% of the sightings are on vehicles\n",
+                 sum / static_cast<double>(study.moving_percent.size()));
   }
   return text;
 }

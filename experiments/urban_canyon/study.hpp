@@ -27,6 +27,7 @@ std::vector<Method> readings(const vins::TrustOptions& options);
 struct MethodStudy {
   std::vector<std::string> names;
   std::vector<std::vector<vins::TrackMetrics>> metrics;  ///< [method][drive]
+  std::vector<double> moving_percent;                    ///< of the sightings, a drive; empty: not known
 };
 
 /// What a canyon's window is told: the IMU's noise as it is, and the pixels' as a calibration by day or night
