@@ -17,7 +17,8 @@ enum class TrustMode {
 const char* to_string(TrustMode mode);
 
 /// What stands in V26 for the weight w = N s / g. The paper calls F_c / 1.5 an information; in VINS-Mono it
-/// is the square root of one.
+/// is the square root of one. The default errs least in all modes, on recorded and simulated drives; see
+/// docs/vins.md.
 enum class InformationReading {
   kScalesRoot,         ///< root = F_c/1.5 * w: V26 put where VINS-Mono has its square root
   kScalesInformation,  ///< root = F_c/1.5 * sqrt(w): w multiplies the information
@@ -41,7 +42,7 @@ struct Trust {
 /// The model of the visual measurements (the paper's section 4).
 struct TrustOptions {
   TrustMode mode = TrustMode::kGuarded;
-  InformationReading information = InformationReading::kScalesRoot;
+  InformationReading information = InformationReading::kScalesInformation;
   ThresholdReading threshold = ThresholdReading::kLinear;
   Kernel fixed_kernel = Kernel::kCauchy;  ///< of all modes but ac_me, which has its own Huber
   double focal_length = 460.0;            ///< F_c [px]
