@@ -14,6 +14,8 @@ const char* to_string(Failure failure) {
       return "impossible bias";
     case Failure::kImuGap:
       return "IMU gap";
+    case Failure::kTooFast:
+      return "too fast";
     case Failure::kJumped:
       break;
   }
@@ -29,6 +31,7 @@ Failure detect_failure(const WindowReport& report, const FailureOptions& options
       !(now.bias.gyroscope.norm() < options.max_gyroscope_bias)) {
     return Failure::kImpossibleBias;
   }
+  if (!(now.v_W.norm() < options.max_speed)) return Failure::kTooFast;
   if ((now.T_WB.p - expected.p).norm() > options.max_position_jump ||
       now.T_WB.q.angularDistance(expected.q) > options.max_rotation_jump) {
     return Failure::kJumped;

@@ -143,6 +143,12 @@ Initialisation initialise(const std::vector<UnplacedFrame>& given, const Pose& T
   result.typical_misfit = window.typical_misfit;
   result.scale_deviation = scale_deviation(window, window_options.solver.graph);
   result.outcome = kReady;
+  // Features on vehicles can make a path of any speed, and a bias that turns the accelerations to match.
+  constexpr double kBelievable = 4.0;
+  const double bias_sigma = options.prior.accelerometer_bias;
+  if (window.frames.back().state.bias.accelerometer.norm() > kBelievable * bias_sigma) {
+    result.outcome = kInconsistent;
+  }
   if (!(result.scale_deviation < options.max_scale_deviation)) result.outcome = kScaleUnobservable;
   if (!(result.typical_misfit < options.max_misfit)) result.outcome = kInconsistent;
   if (result.outcome == kReady) result.window = std::move(window);
