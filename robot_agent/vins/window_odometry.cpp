@@ -40,6 +40,7 @@ void WindowOdometry::start(const FeatureFrame& frame, const NavState& state,
                            const StartUncertainty& uncertainty) {
   const Pose T_BS = window_.T_BS;
   window_ = Window();
+  settled_ = frame.stamp;
   window_.T_BS = T_BS;
   WindowFrame first;
   first.stamp = frame.stamp;
@@ -52,6 +53,7 @@ void WindowOdometry::start(const FeatureFrame& frame, const NavState& state,
 
 void WindowOdometry::start(Window window) {
   window_ = std::move(window);
+  settled_ = window_.frames.back().stamp + from_seconds(options_.settling_time);
   while (window_.frames.size() >= options_.size)
     slide(window_, true, options_);
 }
@@ -75,7 +77,7 @@ WindowReport WindowOdometry::process(const FeatureFrame& frame, std::vector<ImuS
   triangulate_all(window_, graph.min_observations, options_.default_distance);
   update_geometry_factors(window_);
   measure_misfits(window_, graph.min_observations);
-  watch_for_movers(window_, graph.trust);
+  if (frame.stamp >= settled_) watch_for_movers(window_, graph.trust);
   const Stopwatch solve_time;
   report.solve = solve(window_, options_.solver);
   report.solve_ms = solve_time.ms();

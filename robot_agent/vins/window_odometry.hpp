@@ -49,6 +49,7 @@ class WindowOdometry {
   WindowOptions options_;
   ImuNoise noise_;
   Window window_;
+  Stamp settled_ = 0;  ///< from then on the guarded mode may act
 };
 
 }  // namespace cosight::vins
