@@ -8,19 +8,15 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// Of vins::state_covariance().
-constexpr int kPosition = 0;
-constexpr int kRotation = 3;
-constexpr int kVelocity = 6;
-constexpr int kGyroscopeBias = 12;
+using State = vins::UncertainNavState;
 using StateJacobian = Eigen::Matrix<double, 6, 15>;
 
 /// d [p_WS, theta (axes of W)] / d state.
 StateJacobian pose_jacobian(const Matrix3d& R_WB, const Vector3d& p_BS) {
   StateJacobian J = StateJacobian::Zero();
-  J.block<3, 3>(0, kPosition).setIdentity();
-  J.block<3, 3>(0, kRotation) = -R_WB * skew(p_BS);
-  J.block<3, 3>(3, kRotation) = R_WB;
+  J.block<3, 3>(0, State::kPosition).setIdentity();
+  J.block<3, 3>(0, State::kRotation) = -R_WB * skew(p_BS);
+  J.block<3, 3>(3, State::kRotation) = R_WB;
   return J;
 }
 
@@ -28,10 +24,10 @@ StateJacobian pose_jacobian(const Matrix3d& R_WB, const Vector3d& p_BS) {
 StateJacobian twist_jacobian(const Matrix3d& R_WB, const Vector3d& v_W, const Pose& T_BS) {
   const Matrix3d R_SB = T_BS.q.toRotationMatrix().transpose();
   StateJacobian J = StateJacobian::Zero();
-  J.block<3, 3>(0, kRotation) = R_SB * skew(R_WB.transpose() * v_W);
-  J.block<3, 3>(0, kVelocity) = R_SB * R_WB.transpose();
-  J.block<3, 3>(0, kGyroscopeBias) = R_SB * skew(T_BS.p);
-  J.block<3, 3>(3, kGyroscopeBias) = -R_SB;
+  J.block<3, 3>(0, State::kRotation) = R_SB * skew(R_WB.transpose() * v_W);
+  J.block<3, 3>(0, State::kVelocity) = R_SB * R_WB.transpose();
+  J.block<3, 3>(0, State::kGyroscopeBias) = R_SB * skew(T_BS.p);
+  J.block<3, 3>(3, State::kGyroscopeBias) = -R_SB;
   return J;
 }
 
@@ -59,7 +55,7 @@ OdometrySample odometry_of(const vins::Window& window, const vins::UncertainNavS
   // The gyroscope's own noise in one sample, through omega_B.
   const double interval = newest.imu->duration() / static_cast<double>(imu.size() - 1);
   const double variance = noise.gyroscope * noise.gyroscope / interval;
-  const auto J_omega = J_twist.middleCols<3>(kGyroscopeBias);
+  const auto J_omega = J_twist.middleCols<3>(State::kGyroscopeBias);
   sample.twist_covariance = J_twist * P * J_twist.transpose() + variance * J_omega * J_omega.transpose();
   return sample;
 }

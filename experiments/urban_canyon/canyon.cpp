@@ -18,8 +18,8 @@ constexpr Stamp kStart = 1'000'000'000'000;
 std::vector<vins::ImuSample> measure_imu(const Route& route, const CanyonOptions& options,
                                          std::mt19937_64& random) {
   const double root_rate = std::sqrt(kImuRate);
-  Vector3d accelerometer_bias = gaussian(random, options.start_accelerometer_bias);
-  Vector3d gyroscope_bias = gaussian(random, options.start_gyroscope_bias);
+  Vector3d accelerometer_bias = gaussian<3>(random, options.start_accelerometer_bias);
+  Vector3d gyroscope_bias = gaussian<3>(random, options.start_gyroscope_bias);
   std::vector<vins::ImuSample> samples;
   for (int i = 0; i / kImuRate < route.duration() + 1.0; ++i) {
     const double t = i / kImuRate;
@@ -27,11 +27,11 @@ std::vector<vins::ImuSample> measure_imu(const Route& route, const CanyonOptions
     sample.stamp = kStart + from_seconds(t);
     const Vector3d force_W = route.acceleration_W(t) + Vector3d(0.0, 0.0, kGravity);
     sample.acceleration_B = route.T_WB(t).q.conjugate() * force_W + accelerometer_bias +
-                            gaussian(random, options.imu.accelerometer * root_rate);
+                            gaussian<3>(random, options.imu.accelerometer * root_rate);
     sample.angular_velocity_B =
-        route.body_rate(t) + gyroscope_bias + gaussian(random, options.imu.gyroscope * root_rate);
-    accelerometer_bias += gaussian(random, options.imu.accelerometer_walk / root_rate);
-    gyroscope_bias += gaussian(random, options.imu.gyroscope_walk / root_rate);
+        route.body_rate(t) + gyroscope_bias + gaussian<3>(random, options.imu.gyroscope * root_rate);
+    accelerometer_bias += gaussian<3>(random, options.imu.accelerometer_walk / root_rate);
+    gyroscope_bias += gaussian<3>(random, options.imu.gyroscope_walk / root_rate);
     samples.push_back(sample);
   }
   return samples;

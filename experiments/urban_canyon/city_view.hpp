@@ -35,7 +35,6 @@ class CityView {
   static Pose T_BS();
 
   void go_to(double t);
-  const Pose& T_WS() const { return T_WS_; }
 
   /// Where a point is in the image [px]; nothing when it is outside, turned away or hidden behind a vehicle.
   std::optional<Eigen::Vector2d> see(const CityPoint& city_point) const;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <opencv2/calib3d.hpp>
 
+#include "experiments/urban_canyon/gaussian.hpp"
+
 namespace cosight::experiments {
 namespace {
 
@@ -36,18 +38,12 @@ bool FrontEnd::happens(double probability) {
   return std::uniform_real_distribution<double>()(random_) < probability;
 }
 
-Vector2d FrontEnd::gaussian(double sigma) {
-  std::normal_distribution<double> draw(0.0, sigma);
-  const double u = draw(random_);
-  return {u, draw(random_)};
-}
-
 bool FrontEnd::keeps(Track& track, const Vector2d& uv) {
   constexpr double kSlip = 4.0;  // [px]
   if (happens(options_.loss * track.poorness)) return false;
-  if (happens(options_.slip * track.poorness)) track.drift += gaussian(kSlip);
+  if (happens(options_.slip * track.poorness)) track.drift += gaussian<2>(random_, kSlip);
   track.before = track.seen;
-  track.seen = uv + track.drift + gaussian(track.noise);
+  track.seen = uv + track.drift + gaussian<2>(random_, track.noise);
   return true;
 }
 
@@ -88,9 +84,9 @@ void FrontEnd::choose_new(const CityView& view) {
     const std::optional<Vector2d> uv = view.see(candidate);
     if (!uv || !taken.is_free(*uv)) continue;
     Track track{.id = next_id_++};
-    track.poorness = std::exp(std::log(options_.noise_spread) * gaussian(1.0).x());
+    track.poorness = std::exp(std::log(options_.noise_spread) * gaussian<2>(random_, 1.0).x());
     track.noise = options_.noise * track.poorness;
-    track.seen = *uv + gaussian(track.noise);
+    track.seen = *uv + gaussian<2>(random_, track.noise);
     taken.add(track.seen);
     tracks_.emplace(candidate, track);
   }

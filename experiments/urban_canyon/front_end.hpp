@@ -54,7 +54,6 @@ class FrontEnd {
   bool keeps(Track& track, const Eigen::Vector2d& uv);
   void reject_outliers();
   bool happens(double probability);
-  Eigen::Vector2d gaussian(double sigma);
 
   FrontEndOptions options_;
   std::mt19937_64& random_;

@@ -3,6 +3,7 @@
 #include <exception>
 #include <mutex>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "shared/program/status_line.hpp"
@@ -65,7 +66,7 @@ void Workers::run(const std::string& what, int count, const std::function<void(i
       workers.emplace_back(work);
   }
   progress.rethrow();
-  if (stop_) throw Interrupted(what + ": stopped before all were done; nothing is written");
+  if (stop_) throw Interrupted(what + ": stopped before all were done; there is no summary");
 }
 
 }  // namespace cosight::experiments

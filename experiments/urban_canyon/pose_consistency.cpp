@@ -21,12 +21,12 @@ using Eigen::Vector3d;
 vins::NavState drawn_start(const vins::NavState& truth, const vins::StartUncertainty& sigma,
                            std::mt19937_64& random) {
   vins::NavState state = truth;
-  const Vector3d theta_W = gaussian(random, 1.0).cwiseProduct(Vector3d(sigma.tilt, sigma.tilt, sigma.yaw));
-  const Vector3d dp = gaussian(random, sigma.position);
+  const Vector3d theta_W = gaussian<3>(random, 1.0).cwiseProduct(Vector3d(sigma.tilt, sigma.tilt, sigma.yaw));
+  const Vector3d dp = gaussian<3>(random, sigma.position);
   const Vector3d theta_B = truth.T_WB.q.conjugate() * theta_W;
   const Eigen::Vector<double, 6> delta{dp.x(), dp.y(), dp.z(), theta_B.x(), theta_B.y(), theta_B.z()};
   state.T_WB = vins::moved(truth.T_WB, delta.data());
-  state.v_W += gaussian(random, sigma.velocity);
+  state.v_W += gaussian<3>(random, sigma.velocity);
   return state;
 }
 
@@ -115,7 +115,7 @@ std::vector<ModeConsistency> study_consistency(int runs, const Workers& workers)
   const Band position_band = average_band(3, runs);
   std::vector<ModeConsistency> all;
   for (const Method& method : modes(window.window.solver.graph.trust)) {
-    const std::vector<PoseCheck> checks =
+    std::vector<PoseCheck> checks =
         monte_carlo({.trust = method.trust, .start = window.start}, runs, workers);
     ModeConsistency mode;
     mode.name = method.name;
@@ -126,7 +126,7 @@ std::vector<ModeConsistency> study_consistency(int runs, const Workers& workers)
       mode.pose_in_band += pose_band.contains(check.pose_nees) ? share : 0.0;
       mode.position_in_band += position_band.contains(check.position_nees) ? share : 0.0;
     }
-    mode.course = checks;
+    mode.course = std::move(checks);
     all.push_back(std::move(mode));
   }
   return all;

@@ -8,12 +8,10 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// Of the error state of UncertainNavState.
-constexpr int kP = 0;
-constexpr int kR = 3;
-constexpr int kV = 6;
-constexpr int kBa = 9;
-constexpr int kBg = 12;
+constexpr int kP = UncertainNavState::kPosition;
+constexpr int kR = UncertainNavState::kRotation;
+constexpr int kV = UncertainNavState::kVelocity;
+constexpr int kBa = UncertainNavState::kAccelerometerBias;
 
 constexpr int kAlpha = Preintegration::kAlpha;
 constexpr int kTheta = Preintegration::kTheta;

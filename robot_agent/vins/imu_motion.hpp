@@ -13,6 +13,13 @@ struct UncertainNavState {
   NavState state;
   /// Of [dp (W), dtheta (B), dv (W), d accelerometer bias, d gyroscope bias], as state_covariance() gives it.
   Eigen::Matrix<double, 15, 15> covariance = Eigen::Matrix<double, 15, 15>::Zero();
+
+  // Where its parts begin.
+  static constexpr int kPosition = 0;
+  static constexpr int kRotation = 3;
+  static constexpr int kVelocity = 6;
+  static constexpr int kAccelerometerBias = 9;
+  static constexpr int kGyroscopeBias = 12;
 };
 
 /// Where the IMU alone leads from `known`. `imu` begins at its stamp.

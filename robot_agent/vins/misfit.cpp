@@ -25,7 +25,7 @@ double misfit(const Window& window, const Landmark& landmark) {
   return count < kMinSightings ? 0.0 : std::sqrt(squares / count);
 }
 
-/// Slow, so that half a minute between moving vehicles changes little; slower up than down, since
+/// Slow, so that ten seconds between moving vehicles raise it by a third only; slower up than down, since
 /// disturbances only add.
 void follow_usual_misfit(Window& window) {
   constexpr double kUp = 0.03;   // [1/s]

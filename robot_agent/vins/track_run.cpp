@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
+#include "robot_agent/vins/track_lengths.hpp"
 #include "shared/evaluation/association.hpp"
 #include "shared/evaluation/error_statistics.hpp"
 #include "shared/evaluation/trajectory_errors.hpp"
@@ -20,21 +20,14 @@ NavState true_first_state(const Trajectory& truth) {
   return state;
 }
 
-/// Share of the features that were tracked fewer than ten times (the paper's section 5.2) [%].
+/// Share of the features that were tracked too few times (the paper's section 5.2) [%].
 double outlier_percent(const TrackSequence& sequence) {
-  constexpr int kInlierTracks = 10;
-  std::map<FeatureId, int> tracked;
-  for (const FeatureFrame& frame : sequence.frames) {
-    for (const TrackedFeature& feature : frame.features)
-      ++tracked[feature.id];
-  }
-  int all = 0;
-  int outliers = 0;
-  for (const auto& [id, count] : tracked) {
-    all += count;
-    if (count < kInlierTracks) outliers += count;
-  }
-  return 100.0 * outliers / std::max(all, 1);
+  TrackLengths lengths;
+  for (const FeatureFrame& frame : sequence.frames)
+    lengths.add(frame);
+  lengths.add({});  // what is still followed ends here
+  return 100.0 * static_cast<double>(lengths.outlier_sightings()) /
+         static_cast<double>(std::max<std::uint64_t>(lengths.sightings(), 1));
 }
 
 void measure(const TrackSequence& sequence, TrackRun& run) {

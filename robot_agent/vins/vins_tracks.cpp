@@ -36,7 +36,7 @@ void add_trust_options(CLI::App& app, TrustOptions& trust) {
   app.add_option("--scale", trust.scale, "s of V26");
   app.add_option("--geometry-scale", trust.geometry_scale, "s of V26 without N");
   app.add_option("--huber-scale", trust.huber_scale, "M_s of V30");
-  app.add_option("--misfit-width", trust.misfit_width, "guarded: in typical misfits");
+  app.add_option("--misfit-width", trust.misfit_width, "guarded: in usual misfits");
 }
 
 void add_options(CLI::App& app, TrackRunOptions& options) {

@@ -160,16 +160,12 @@ void expect_start_with_scale(Trip& run) {
   EXPECT_NEAR(run.speed_ratio(estimate), 1.0, 0.1);
 }
 
-TEST(Start, WaitsForParallaxWhileStandingAndBeginsWithTheMotion) {
-  Trip run(Slow::kStanding);
-  const auto outcomes = outcomes_while_slow(run);
-  ASSERT_EQ(outcomes.size(), 1U);
-  EXPECT_EQ(outcomes.begin()->first, InitialisationOutcome::kTooLittleParallax);
-  expect_start_with_scale(run);
-}
+class StartWithoutParallax : public testing::TestWithParam<Slow> {};
+INSTANTIATE_TEST_SUITE_P(StandingAndTurning, StartWithoutParallax,
+                         testing::Values(Slow::kStanding, Slow::kTurning));
 
-TEST(Start, WaitsForParallaxWhileOnlyTurningAndBeginsWithTheMotion) {
-  Trip run(Slow::kTurning);
+TEST_P(StartWithoutParallax, WaitsForItAndBeginsWithTheMotion) {
+  Trip run(GetParam());
   const auto outcomes = outcomes_while_slow(run);
   ASSERT_EQ(outcomes.size(), 1U);
   EXPECT_EQ(outcomes.begin()->first, InitialisationOutcome::kTooLittleParallax);
