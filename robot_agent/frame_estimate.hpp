@@ -48,6 +48,15 @@ struct SearchCounts {
   int fused_pixels = 0;         ///< measured as a bearing (C6)
 };
 
+/// The distance of a point of the frame, as the wearer's view of the same moment alone tells it (C
+/// section 3.2).
+struct StereoDepth {
+  Eigen::Vector2d pixel_S = Eigen::Vector2d::Zero();  ///< [px]
+  double inverse_distance = 0.0;                      ///< from Cs [1/m]
+  double sigma = 0.0;                                 ///< by the noise of its pixels alone [1/m]
+  double shared_sigma = 0.0;  ///< by the pose of Cf, whose error all points of the frame share [1/m]
+};
+
 /// Wall time of the stages of one frame [ms].
 struct StageTimings {
   double decode = 0.0;
@@ -87,6 +96,7 @@ struct FrameEstimate {
   PseudoStereoCounts pseudo_stereo;
   SearchCounts search;
   OverlapEstimate overlap;
+  std::vector<StereoDepth> stereo_depths;  ///< of the matches that were fused
   int landmarks = 0;
   int candidates = 0;
   int landmarks_added = 0;

@@ -50,7 +50,6 @@ void Intake::robot_is_at(const FrameEstimate& estimate) {
 }
 
 void Intake::close() {
-  if (vins_ != nullptr) vins_->finish();
   if (locator_) locator_->finish();
   inbox_.close();
 }

@@ -40,8 +40,7 @@ OfflineRun::OfflineRun(const RobotOptions& options, const outbox::RunDescription
       record_(outbox::RunFolder(options.run_dir), description) {
   if (has_slam(options.estimators)) slam_.emplace(input_.camera, options.slam, input_.known_points);
   if (vins_plan_) {
-    vins_.emplace(*vins_plan_, input_.camera, *input_.T_BS, record_.folder(), nullptr,
-                  options.vins_guides_slam);
+    vins_.emplace(*vins_plan_, input_.camera, *input_.T_BS, record_.folder(), nullptr, options.vins_help);
     intake_.feed(*vins_, options.estimators);
   }
 }
@@ -61,6 +60,7 @@ std::vector<std::string> OfflineRun::run(const Progress& progress) {
     arrival_ += options_.inbox.pairing.max_wait;  // nothing more comes: what waits has waited long enough
     process_ready(progress);
   }
+  if (vins_) vins_->finish();
   return finish();
 }
 
@@ -93,6 +93,7 @@ void OfflineRun::process_ready(const Progress& progress) {
     bundle->decode_ms = 0.0;  // the only thing in it that another run would not repeat
     if (vins_) vins_->guide(*bundle);
     const FrameEstimate estimate = slam_->process(*bundle);
+    if (vins_) vins_->push(*bundle, estimate);
     intake_.robot_is_at(estimate);
     record_.add(*bundle, estimate);
     const auto line = status_.update(*bundle, estimate, {.lost = inbox_.counters().robot_lost}, clock_.now());

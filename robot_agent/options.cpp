@@ -40,6 +40,13 @@ Estimators read_estimators(const ConfigNode& root) {
   return enable && only == Only::kAll ? Estimators::kSlamAndVins : Estimators::kSlam;
 }
 
+VinsHelp read_vins_help(const ConfigNode& vins, Estimators estimators) {
+  VinsHelp help;
+  help.guides_slam = vins.boolean("guide_slam", help.guides_slam);
+  help.takes_depths = vins.boolean("take_depths", help.takes_depths);
+  return estimators == Estimators::kSlamAndVins ? help : VinsHelp{false, false};
+}
+
 }  // namespace
 
 RobotOptions read_robot_options(const ConfigNode& root) {
@@ -60,7 +67,7 @@ RobotOptions read_robot_options(const ConfigNode& root) {
   options.wearer = read_wearer_section(root.section("wearer"));
   options.estimators = read_estimators(root);
   options.vins = read_vins_options(root.section("vins"));
-  options.vins_guides_slam = root.section("vins").boolean("guide_slam", options.vins_guides_slam);
+  options.vins_help = read_vins_help(root.section("vins"), options.estimators);
   const ConfigNode start = root.section("start");
   options.wait_for_wearer = start.number("wait_for_wearer", options.wait_for_wearer, 0.0, 86'400.0);
   options.wait_for_sensors = start.number("wait_for_sensors", options.wait_for_sensors, 0.0, 86'400.0);

@@ -26,7 +26,7 @@ struct RobotOptions {
   WearerSection wearer;
   Estimators estimators = Estimators::kSlam;
   vins::VinsThreadOptions vins;
-  bool vins_guides_slam = false;   ///< slam's prediction takes VINS's velocity and the IMU's motion
+  VinsHelp vins_help;
   double wait_for_wearer = 10.0;   ///< before the first frame [s]; then the robot goes on alone
   double wait_for_sensors = 60.0;  ///< whose calibration only their topic tells [s]
   std::filesystem::path run_dir = "runs/robot";

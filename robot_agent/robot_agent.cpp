@@ -60,7 +60,7 @@ RobotAgent::RobotAgent(const RobotOptions& options, const outbox::RunDescription
   }
   if (vins_plan_) {
     vins_.emplace(*vins_plan_, input_.camera, *input_.T_BS, record_.folder(), &participant_,
-                  options.vins_guides_slam);
+                  options.vins_help);
     intake_.feed(*vins_, options.estimators);
   }
   spdlog::info("robot '{}' on domain {}: {}", options.agent_id, options.dds.domain, sensors_.description());
@@ -75,6 +75,7 @@ std::vector<std::string> RobotAgent::run(const Progress& progress) {
     if (auto bundle = inbox_.pop(kPatience)) process(*bundle, progress);
     if (!slam_ && progress) progress(vins_->status());
   }
+  if (vins_) vins_->finish();
   return finish();
 }
 
@@ -95,6 +96,7 @@ void RobotAgent::wait_for_wearer() {
 void RobotAgent::process(FrameBundle& bundle, const Progress& progress) {
   if (vins_) vins_->guide(bundle);
   const FrameEstimate estimate = slam_->process(bundle);
+  if (vins_) vins_->push(bundle, estimate);
   intake_.robot_is_at(estimate);
   record_.add(bundle, estimate);
   publisher_.publish(estimate, [this] { return slam_->map(); });

@@ -3,6 +3,7 @@
 #include "robot_agent/inbox/frame_decoder.hpp"
 #include "robot_agent/outbox/publisher.hpp"
 #include "robot_agent/vins/uncertainty.hpp"
+#include "robot_agent/vins_distances.hpp"
 #include "robot_agent/vins_odometry.hpp"
 
 namespace cosight::robot {
@@ -17,13 +18,14 @@ vins::UncertainNavState newest_state(const vins::Window& window, const vins::Gra
 
 VinsBackEnd::VinsBackEnd(const vins::VinsThreadOptions& options, const CameraModel& camera, const Pose& T_BS,
                          const std::filesystem::path& run_folder, const transport::Participant* participant,
-                         bool guides_slam)
+                         const VinsHelp& help)
     : camera_(camera),
       options_(options),
       record_(run_folder),
+      takes_depths_(help.takes_depths),
       thread_(options, camera, T_BS,
               [this](const auto& estimate, const auto& window) { take(estimate, window); }) {
-  if (guides_slam) guide_.emplace(options.vins.noise, T_BS, options.vins.window.solver.graph.gravity);
+  if (help.guides_slam) guide_.emplace(options.vins.noise, T_BS, options.vins.window.solver.graph.gravity);
   if (participant != nullptr) publisher_.emplace(*participant, transport::topics::kRobotVinsOdometry);
 }
 
@@ -35,9 +37,16 @@ void VinsBackEnd::push(const ImuSample& sample) {
 }
 
 void VinsBackEnd::push(const ImageSample& frame) {
+  if (takes_depths_) return;
   thread_.push_image(frame.stamp, [this, frame] {
     return inbox::decode_frame(frame, {camera_.width, camera_.height}).image;
   });
+}
+
+void VinsBackEnd::push(const FrameBundle& bundle, const FrameEstimate& estimate) {
+  if (!takes_depths_) return;
+  thread_.push_image(
+      bundle.stamp, [image = bundle.image] { return image; }, distances_of(estimate.stereo_depths, camera_));
 }
 
 void VinsBackEnd::guide(FrameBundle& bundle) {

@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "robot_agent/estimators.hpp"
 #include "robot_agent/frame_bundle.hpp"
+#include "robot_agent/frame_estimate.hpp"
 #include "robot_agent/vins/motion_guide.hpp"
 #include "robot_agent/vins_record.hpp"
 #include "shared/dataset/sample.hpp"
@@ -21,14 +23,17 @@ namespace cosight::robot {
 /// robot's IMU. What it estimates goes to `vins.tum` and, live, to rt/cosight/robot/vins/odometry.
 class VinsBackEnd {
  public:
-  /// `options`: as planned for the input, see vins_plan.hpp. `participant`: null without DDS. `guides_slam`:
-  /// guide() has an effect. Throws OutputError or TransportError.
+  /// `options`: as planned for the input, see vins_plan.hpp. `participant`: null without DDS. Throws
+  /// OutputError or TransportError.
   VinsBackEnd(const vins::VinsThreadOptions& options, const CameraModel& camera, const Pose& T_BS,
               const std::filesystem::path& run_folder, const transport::Participant* participant,
-              bool guides_slam);
+              const VinsHelp& help);
 
   void push(const ImuSample& sample);
+  /// Of no effect when VINS is to take slam's depths: then the images come with them.
   void push(const ImageSample& frame);
+  /// What slam made of a bundle: its image with the depths that the wearer's view gave, when VINS takes them.
+  void push(const FrameBundle& bundle, const FrameEstimate& estimate);
 
   /// Tells slam's next bundle how the camera moved since the one before, when VINS is to guide slam. Offline
   /// it waits for what VINS makes of that one's image, so that the answer is always the same.
@@ -52,6 +57,7 @@ class VinsBackEnd {
   vins::VinsThreadOptions options_;
   VinsRecord record_;
   std::optional<transport::Publisher<OdometrySample>> publisher_;
+  bool takes_depths_;
   std::optional<vins::MotionGuide> guide_;
   std::optional<Stamp> last_bundle_;  ///< that guide() saw
   std::uint64_t frames_guided_ = 0;

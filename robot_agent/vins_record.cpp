@@ -68,6 +68,8 @@ void VinsRecord::report(outbox::YamlText& text, const vins::VinsCounters& counte
       .value("imu_refused", counters.imu_refused)
       .value("sightings", counters.sightings)
       .value("outlier_sightings", counters.outlier_sightings)
+      .value("distances", counters.distances)
+      .value("distances_given", counters.distances_given)
       .value("solve_ms_median", solve_ms_.quantile(0.5))
       .value("solve_ms_p99", solve_ms_.quantile(0.99))
       .value("marginalise_ms_median", marginalise_ms_.quantile(0.5));

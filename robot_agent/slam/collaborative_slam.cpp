@@ -7,6 +7,7 @@
 #include "robot_agent/slam/prediction_summary.hpp"
 #include "robot_agent/slam/rig_refinement.hpp"
 #include "robot_agent/slam/start_landmarks.hpp"
+#include "robot_agent/slam/stereo_depths.hpp"
 #include "robot_agent/slam/stopwatch.hpp"
 #include "robot_agent/slam/wearer_silhouette.hpp"
 #include "robot_agent/vision/patch_warp.hpp"
@@ -105,6 +106,7 @@ FrameEstimate CollaborativeSlam::process(const FrameBundle& bundle) {
 
   const ekf::UpdateReport& report = filter_.update(accepted, wearer);
   note_fused(sightings, report, estimate);
+  if (view) estimate.stereo_depths = fused_depths(view->rig, sightings, matches.landmarks, report);
   watch.lap(estimate.timings.update);
 
   if (bundle.image) renew_map(*bundle.image, view, matches, estimate, watch);

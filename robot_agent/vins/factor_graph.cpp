@@ -39,7 +39,11 @@ void FactorGraph::add_landmark(const Landmark& landmark) {
   if (window_.many_bend) feature.relative_misfit = landmark.misfit / window_.reference_misfit();
   feature.geometry_factor = window_.frames[host].geometry_factor;
   const Trust of_host = trust(options_.trust, feature);
-  hosts_.emplace_back(of_host.sqrt_information, loss(of_host));
+  HostTerm& term = hosts_.emplace_back(of_host.sqrt_information, loss(of_host));
+  if (landmark.known) {
+    term.distance.emplace(*landmark.known);
+    term.distance_loss = loss({.kernel = Kernel::kCauchy, .threshold = 1.0});
+  }
   for (std::size_t k = 1; k < landmark.observations.size(); ++k) {
     const Observation& seen = landmark.observations[k];
     const std::size_t target = window_.slot(seen.frame);

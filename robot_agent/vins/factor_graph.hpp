@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "robot_agent/vins/adaptive_model.hpp"
+#include "robot_agent/vins/distance_factor.hpp"
 #include "robot_agent/vins/imu_factor.hpp"
 #include "robot_agent/vins/prior_factor.hpp"
 #include "robot_agent/vins/reprojection_factor.hpp"
@@ -54,6 +55,8 @@ class FactorGraph {
 
     HostFactor factor;
     const ceres::LossFunction* loss;  ///< may be null
+    std::optional<DistanceFactor> distance = std::nullopt;
+    const ceres::LossFunction* distance_loss = nullptr;
   };
 
   FactorGraph(const Window& window, const GraphOptions& options, GraphScope scope);

@@ -16,6 +16,8 @@ const char* to_string(Failure failure) {
       return "IMU gap";
     case Failure::kTooFast:
       return "too fast";
+    case Failure::kWrongScale:
+      return "wrong scale";
     case Failure::kJumped:
       break;
   }
@@ -32,6 +34,7 @@ Failure detect_failure(const WindowReport& report, const FailureOptions& options
     return Failure::kImpossibleBias;
   }
   if (!(now.v_W.norm() < options.max_speed)) return Failure::kTooFast;
+  if (contradicts(report.distances)) return Failure::kWrongScale;
   if ((now.T_WB.p - expected.p).norm() > options.max_position_jump ||
       now.T_WB.q.angularDistance(expected.q) > options.max_rotation_jump) {
     return Failure::kJumped;

@@ -12,6 +12,7 @@ enum class Failure {
   kImpossibleBias,  ///< no working IMU has one so large
   kImuGap,          ///< no IMU sample for too long: what it would have said is not known
   kTooFast,         ///< faster than what carries it can go
+  kWrongScale,      ///< others have measured quite other distances
   kJumped,          ///< moved or turned against the IMU's prediction farther than it can be wrong
 };
 const char* to_string(Failure failure);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "robot_agent/vins/known_distances.hpp"
 #include "robot_agent/vins/misfit.hpp"
 #include "robot_agent/vins/triangulation.hpp"
 #include "robot_agent/vins/uncertainty.hpp"
@@ -38,6 +39,7 @@ Window place(const std::vector<UnplacedFrame>& frames, const Pose& T_BS, const M
   first.state.v_W = first.state.T_WB.q * start.v_B;
   first.state.bias = bias;
   window.add_observations(frames.front().features);
+  learn_distances(window, frames.front().features);  // later ones would need a scale that is not sure yet
   for (std::size_t i = 1; i < frames.size(); ++i) {
     append_frame(window, frames[i].features, *frames[i].imu, gravity);
   }
@@ -150,6 +152,7 @@ Initialisation initialise(const std::vector<UnplacedFrame>& given, const Pose& T
     result.outcome = kInconsistent;
   }
   if (!(result.scale_deviation < options.max_scale_deviation)) result.outcome = kScaleUnobservable;
+  if (contradicts(check_distances(window))) result.outcome = kInconsistent;
   if (!(result.typical_misfit < options.max_misfit)) result.outcome = kInconsistent;
   if (result.outcome == kReady) result.window = std::move(window);
   return result;

@@ -84,10 +84,10 @@ void add_prior(const PriorFactor& factor, FactorGraph& graph, const StateLayout&
   }
 }
 
-double kernel_root(const ceres::LossFunction* loss, const Eigen::Vector2d& r) {
+double kernel_root(const ceres::LossFunction* loss, double squared_norm) {
   if (loss == nullptr) return 1.0;
   std::array<double, 3> rho{};
-  loss->Evaluate(r.squaredNorm(), rho.data());
+  loss->Evaluate(squared_norm, rho.data());
   return std::sqrt(rho[1]);
 }
 
@@ -102,8 +102,9 @@ class LandmarkCorner {
     RowMajor<2, 3> J;
     double* jacobian = J.data();
     term.factor.Evaluate(&landmark, r.data(), &jacobian);
-    const double root = kernel_root(term.loss, r);
+    const double root = kernel_root(term.loss, r.squaredNorm());
     add(root * J, root * r);
+    if (term.distance) add_distance(*term.distance, term.distance_loss, landmark);
   }
 
   void add(const RowMajor<2, 3>& J, const Eigen::Vector2d& r) {
@@ -142,6 +143,16 @@ class LandmarkCorner {
   }
 
  private:
+  void add_distance(const DistanceFactor& factor, const ceres::LossFunction* loss, const double* landmark) {
+    double r = 0.0;
+    RowMajor<1, 3> J;
+    double* jacobian = J.data();
+    factor.Evaluate(&landmark, &r, &jacobian);
+    const double root = kernel_root(loss, r * r);
+    H_.noalias() += root * root * J.transpose() * J;
+    b_.noalias() += root * root * r * J.transpose();
+  }
+
   struct Coupled {
     Index column;
     Index size;
@@ -186,7 +197,7 @@ void add_visual(const FactorGraph::VisualTerm& term, FactorGraph& graph, const S
                                    columns[2] < 0 ? nullptr : ambient[2].data(), J_landmark.data(),
                                    offset < 0 ? nullptr : J_offset.data()};
   term.factor.Evaluate(blocks.data(), r.data(), jacobians.data());
-  const double root = kernel_root(term.loss, r);
+  const double root = kernel_root(term.loss, r.squaredNorm());
   r *= root;
   J_landmark *= root;
   J_offset *= root;

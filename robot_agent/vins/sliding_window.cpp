@@ -28,10 +28,12 @@ void lose_first(Landmark& landmark, std::size_t count, const Window& window) {
   const Eigen::Vector3d ray = window.ray(landmark);
   landmark.observations.erase(landmark.observations.begin(),
                               landmark.observations.begin() + static_cast<std::ptrdiff_t>(count));
-  if (!landmark.has_depth || landmark.observations.empty()) return;
+  if (landmark.observations.empty()) return;
   const Pose T_WS_new = window.T_WS(window.slot(landmark.observations.front().frame));
-  // Times lambda, as in the reprojection factor.
   const Pose T = T_WS_new.inverse() * T_WS_old;
+  if (landmark.known) landmark.known = seen_from(*landmark.known, ray, T);
+  if (!landmark.has_depth) return;
+  // Times lambda, as in the reprojection factor.
   const Eigen::Vector3d h = T.q * ray + landmark.lambda * T.p;
   const Eigen::Vector3d seen = landmark.observations.front().sighting.bearing(window.time_offset);
   landmark.has_depth = h.dot(seen) > 0.0;
@@ -78,6 +80,7 @@ void slide_oldest(Window& window, const GraphOptions& options) {
     Landmark& landmark = window.landmarks.at(id);
     const std::size_t given = landmark.observations.size();
     landmark.observations.insert(landmark.observations.end(), observations.begin(), observations.end());
+    landmark.known.reset();  // it is in the prior now
     lose_first(landmark, given, window);
   }
   window.frames.pop_front();

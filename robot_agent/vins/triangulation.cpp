@@ -32,7 +32,8 @@ std::optional<double> triangulate(const Window& window, const Landmark& landmark
 void triangulate_all(Window& window, std::size_t min_observations, double default_distance) {
   for (auto& [id, landmark] : window.landmarks) {
     if (landmark.has_depth || landmark.observations.size() < min_observations) continue;
-    landmark.lambda = triangulate(window, landmark).value_or(1.0 / default_distance);
+    const double assumed = landmark.known ? landmark.known->lambda : 1.0 / default_distance;
+    landmark.lambda = triangulate(window, landmark).value_or(assumed);
     landmark.beside.setZero();
     landmark.has_depth = true;
   }

@@ -20,6 +20,7 @@ VinsThread::VinsThread(const VinsThreadOptions& options, const CameraModel& came
                        Found found)
     : options_(options),
       found_(std::move(found)),
+      max_apart_(options.max_distance_apart_px / (0.5 * (camera.fx + camera.fy))),
       tracker_(camera, options.tracker),
       vins_(options.vins, T_BS) {
   thread_ = std::thread([this] { run(); });
@@ -46,7 +47,7 @@ void VinsThread::push_imu(const ImuSample& sample) {
   changed_.notify_all();
 }
 
-void VinsThread::push_image(Stamp stamp, Decode decode) {
+void VinsThread::push_image(Stamp stamp, Decode decode, std::vector<DistanceSighting> distances) {
   {
     std::unique_lock lock(mutex_);
     const auto has_room = [&] { return images_.size() < options_.max_images; };
@@ -62,7 +63,7 @@ void VinsThread::push_image(Stamp stamp, Decode decode) {
       ++counters_.images_dropped;
       images_.pop_front();
     }
-    images_.push_back({stamp, std::move(decode)});
+    images_.push_back({stamp, std::move(decode), std::move(distances)});
   }
   changed_.notify_all();
 }
@@ -119,14 +120,18 @@ void VinsThread::process(const WaitingImage& next, const std::vector<ImuSample>&
     refused += vins_.add_imu(sample) ? 0 : 1;
   const auto image = next.decode();
   std::optional<VinsEstimate> estimate;
+  int distances_given = 0;
   if (image) {
-    const FeatureFrame frame = tracker_.track(next.stamp, *image);
+    FeatureFrame frame = tracker_.track(next.stamp, *image);
+    distances_given = give_distances(next.distances, max_apart_, frame);
     lengths_.add(frame);
     estimate = vins_.process(frame);
   }
   {
     const std::lock_guard lock(mutex_);
     counters_.imu_refused += refused;
+    counters_.distances += next.distances.size();
+    counters_.distances_given += static_cast<std::uint64_t>(distances_given);
     counters_.sightings = lengths_.sightings();
     counters_.outlier_sightings = lengths_.outlier_sightings();
     if (!estimate) ++counters_.images_undecodable;

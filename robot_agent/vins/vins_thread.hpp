@@ -12,6 +12,7 @@
 
 #include "robot_agent/vins/adaptive_vins.hpp"
 #include "robot_agent/vins/feature_tracker.hpp"
+#include "robot_agent/vins/known_distances.hpp"
 #include "robot_agent/vins/track_lengths.hpp"
 
 namespace cosight::vins {
@@ -21,6 +22,7 @@ struct VinsThreadOptions {
   FeatureTrackerOptions tracker;
   std::size_t max_images = 4;          ///< waiting; more delay, or more frames lost when it is too slow
   std::size_t max_imu_samples = 4000;  ///< waiting for an image: 20 s at 200 Hz
+  double max_distance_apart_px = 2.0;  ///< a known distance is a feature's that is so near in the image
   bool never_drop = false;  ///< a full queue makes whoever pushes wait: for input that can be paused
 };
 
@@ -34,6 +36,8 @@ struct VinsCounters {
   std::uint64_t imu_samples = 0;
   std::uint64_t imu_refused = 0;        ///< not newer than the last, not finite, or nobody took them
   std::uint64_t sightings = 0;          ///< of features, in all images
+  std::uint64_t distances = 0;          ///< of others, that came with the images
+  std::uint64_t distances_given = 0;    ///< that a feature was near enough for
   std::uint64_t outlier_sightings = 0;  ///< of features lost before they were seen ten times
 };
 
@@ -53,7 +57,8 @@ class VinsThread {
   VinsThread& operator=(const VinsThread&) = delete;
 
   void push_imu(const ImuSample& sample);
-  void push_image(Stamp stamp, Decode decode);
+  /// `distances`: what others know of places of the image.
+  void push_image(Stamp stamp, Decode decode, std::vector<DistanceSighting> distances = {});
 
   /// With `never_drop`: until no image up to `stamp` waits any more, but for those that the IMU's samples do
   /// not reach yet.
@@ -68,6 +73,7 @@ class VinsThread {
   struct WaitingImage {
     Stamp stamp = 0;
     Decode decode;
+    std::vector<DistanceSighting> distances;
   };
 
   void run();
@@ -76,6 +82,7 @@ class VinsThread {
 
   VinsThreadOptions options_;
   Found found_;
+  double max_apart_;  ///< of a known distance from its feature [rad]
   FeatureTracker tracker_;
   TrackLengths lengths_;
   AdaptiveVins vins_;

@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "robot_agent/vins/distance_factor.hpp"
 #include "robot_agent/vins/nav_state.hpp"
 #include "robot_agent/vins/preintegration.hpp"
 #include "robot_agent/vins/prior.hpp"
@@ -22,6 +23,7 @@ using FeatureId = std::uint64_t;
 struct TrackedFeature {
   FeatureId id = 0;
   Sighting sighting;
+  std::optional<KnownDistance> distance = std::nullopt;
 };
 
 /// One frame as the window gets it: features in the undistorted image plane.
@@ -45,6 +47,7 @@ struct Landmark {
   bool has_depth = false;
   int times_tracked = 0;  ///< N: frames that ever saw it, also those that left the window
   double misfit = 0.0;    ///< see misfit.hpp [rad]; zero: not known
+  std::optional<KnownDistance> known = std::nullopt;  ///< from its host, by others than this window
 };
 
 struct WindowFrame {

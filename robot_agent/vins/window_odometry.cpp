@@ -4,6 +4,7 @@
 #include <chrono>
 #include <utility>
 
+#include "robot_agent/vins/known_distances.hpp"
 #include "robot_agent/vins/misfit.hpp"
 #include "robot_agent/vins/triangulation.hpp"
 
@@ -70,6 +71,7 @@ WindowReport WindowOdometry::process(const FeatureFrame& frame, std::vector<ImuS
   WindowReport report;
   report.stamp = frame.stamp;
   append_frame(window_, frame, {std::move(imu), window_.frames.back().state.bias, noise_}, graph.gravity);
+  learn_distances(window_, frame);
   report.predicted = window_.frames.back().state;
   report.keyframe = second_newest_is_keyframe(window_, options_.keyframe);
   report.tracked = count_tracked(window_, frame);
@@ -84,6 +86,7 @@ WindowReport WindowOdometry::process(const FeatureFrame& frame, std::vector<ImuS
   report.state = window_.frames.back().state;
   report.geometry_factor = window_.frames.back().geometry_factor;
   report.typical_misfit = window_.typical_misfit;
+  report.distances = check_distances(window_);
   report.many_bend = window_.many_bend;
   report.mean_times_tracked = mean_times_tracked(window_, frame);
 

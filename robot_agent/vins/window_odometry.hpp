@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "robot_agent/vins/known_distances.hpp"
 #include "robot_agent/vins/sliding_window.hpp"
 
 namespace cosight::vins {
@@ -17,6 +18,7 @@ struct WindowReport {
   double mean_times_tracked = 0.0;  ///< N, over the frame's features
   double typical_misfit = 0.0;      ///< see misfit.hpp [rad]
   bool many_bend = false;           ///< the guarded mode acts; see misfit.hpp
+  DistanceCheck distances = {};     ///< against what others know
   int tracked = 0;                  ///< features of this frame that were seen before
   int landmarks_dropped = 0;        ///< came to lie behind their host
   double solve_ms = 0.0;

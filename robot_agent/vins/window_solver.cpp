@@ -43,6 +43,9 @@ void add_factors(FactorGraph& graph, ceres::Problem& problem) {
     const auto& term = graph.host_term(l);
     problem.AddResidualBlock(lent(term.factor), const_cast<ceres::LossFunction*>(term.loss),
                              graph.landmark(l));
+    if (!term.distance) continue;
+    problem.AddResidualBlock(lent(*term.distance), const_cast<ceres::LossFunction*>(term.distance_loss),
+                             graph.landmark(l));
   }
   for (const auto& term : graph.imu_terms()) {
     std::array<double*, 4> blocks{};

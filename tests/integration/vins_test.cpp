@@ -37,11 +37,12 @@ class VinsSession : public Session {
   }
 };
 
-TEST_F(VinsSession, LeavesSlamsBytesAsTheyAreAndGivesItsOwnAgain) {
+TEST_F(VinsSession, LeavesSlamsBytesAsTheyAreUnlessItGuidesSlam) {
   const fs::path recording = import_small_scene();
   const fs::path without = offline_run(recording, "without", {});
-  const fs::path with = offline_run(recording, "with", {"--set", "vins.enable=true"});
-  const fs::path again = offline_run(recording, "again", {"--set", "vins.enable=true"});
+  const Arguments alone{"--set", "vins.enable=true", "--set", "vins.guide_slam=false"};
+  const fs::path with = offline_run(recording, "with", alone);
+  const fs::path again = offline_run(recording, "again", alone);
   for (const char* name : {"trajectory.tum", "frames.csv", "map.ply", "map.pcd"})
     EXPECT_EQ(text_of(without / name), text_of(with / name)) << name;
   EXPECT_EQ(text_of(with / "vins.tum"), text_of(again / "vins.tum"));
@@ -68,18 +69,30 @@ TEST_F(VinsSession, RunsAloneAndCountsWhatWasMissingBeforeItStarted) {
   EXPECT_GT(files.summary("vins.imu_samples"), 700);
 }
 
-TEST_F(VinsSession, GuidesSlamTheSameWayEachTime) {
+TEST_F(VinsSession, GuidesSlamAndTakesItsDepthsTheSameWayEachTime) {
   const fs::path recording = import_small_scene();
   const fs::path alone = offline_run(recording, "alone", {});
-  const Arguments guided{"--set", "vins.enable=true", "--set", "vins.guide_slam=true"};
-  const fs::path first = offline_run(recording, "first", guided);
-  const fs::path again = offline_run(recording, "again", guided);
+  const Arguments both{"--set", "vins.enable=true"};
+  const fs::path first = offline_run(recording, "first", both);
+  const fs::path again = offline_run(recording, "again", both);
   for (const char* name : {"trajectory.tum", "frames.csv", "vins.tum"})
     EXPECT_EQ(text_of(first / name), text_of(again / name)) << name;
   EXPECT_NE(text_of(first / "trajectory.tum"), text_of(alone / "trajectory.tum"));
   const int tracking = RunFiles(first).summary("vins.frames_tracking");
   EXPECT_GT(tracking, 0);
   EXPECT_EQ(RunFiles(first).summary("vins_guide.frames"), tracking - 1);
+  EXPECT_EQ(RunFiles(first).summary("vins.images"), kFrames);
+  EXPECT_GT(RunFiles(first).summary("vins.distances"), 0);
+  EXPECT_GT(RunFiles(first).summary("vins.distances_given"), 0);
+}
+
+TEST_F(VinsSession, GetsItsImagesFromTheCameraWhereItTakesNoDepths) {
+  const fs::path recording = import_small_scene();
+  const Arguments own{"--set", "vins.enable=true", "--set", "vins.take_depths=false"};
+  const fs::path run = offline_run(recording, "own", own);
+  EXPECT_EQ(RunFiles(run).summary("vins.images"), kFrames);
+  EXPECT_EQ(RunFiles(run).summary("vins.distances"), 0);
+  EXPECT_GT(RunFiles(run).summary("vins.frames_tracking"), 0);
 }
 
 TEST_F(VinsSession, CountsImuSamplesThatCannotBeUsedAndTracksOn) {

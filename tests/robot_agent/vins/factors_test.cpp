@@ -2,6 +2,7 @@
 
 #include <random>
 
+#include "robot_agent/vins/distance_factor.hpp"
 #include "robot_agent/vins/imu_factor.hpp"
 #include "robot_agent/vins/prior_factor.hpp"
 #include "robot_agent/vins/reprojection_factor.hpp"
@@ -119,6 +120,13 @@ TEST_P(FactorJacobian, OfAFirstSightingMatchesCentralDifferences) {
   const HostFactor factor(300.0);
   const Blocks blocks{{0.1, 0.002 * GetParam(), -0.001}};
   EXPECT_LT(relative_difference(jacobians(factor, blocks, 0)), 1e-9);
+}
+
+TEST_P(FactorJacobian, OfAKnownDistanceMatchesCentralDifferences) {
+  const DistanceFactor factor({.lambda = 0.12, .sigma = 0.004});
+  const Blocks blocks{{0.1 + 0.01 * GetParam(), 0.002, -0.001}};
+  EXPECT_LT(relative_difference(jacobians(factor, blocks, 0)), 1e-9);
+  EXPECT_NEAR(evaluate(factor, blocks)(0), (blocks[0][0] - 0.12) / 0.004, 1e-12);
 }
 
 TEST(HostBearing, MovesInTheTangentPlaneOfTheFirstSighting) {

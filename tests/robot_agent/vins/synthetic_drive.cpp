@@ -62,6 +62,10 @@ NavState SyntheticDrive::state(double t) const {
   return {{orientation(t), position(t)}, velocity(t), bias};
 }
 
+double SyntheticDrive::distance(FeatureId id, double t) const {
+  return (points_W_[id] - (state(t).T_WB * T_BS()).p).norm();
+}
+
 std::vector<ImuSample> SyntheticDrive::imu(double from, double to) {
   constexpr double kRate = 200.0;
   const double accelerometer = noisy ? noise.accelerometer * std::sqrt(kRate) : 0.0;

@@ -24,6 +24,9 @@ class SyntheticDrive {
   /// What the camera sees at `t`, `pixel_noise` of white noise; ids are those of the points.
   FeatureFrame camera(double t, double pixel_noise);
 
+  /// True distance of a point from the camera [m].
+  double distance(FeatureId id, double t) const;
+
   Stamp stamp(double t) const { return 1'000'000'000'000 + from_seconds(t); }
   Pose T_BS() const;
 
