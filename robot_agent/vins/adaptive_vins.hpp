@@ -52,6 +52,7 @@ class AdaptiveVins {
 
  private:
   VinsEstimate initialise_with(const FeatureFrame& frame);
+  void hold_enough_frames();
   VinsEstimate track(const FeatureFrame& frame);
   void fail(Failure failure, VinsEstimate& estimate);
 
@@ -61,8 +62,10 @@ class AdaptiveVins {
   WindowOdometry odometry_;
   bool tracking_ = false;
   std::deque<UnplacedFrame> waiting_;
+  std::optional<Rest> rest_;  ///< the last one, while its frame is in waiting_
   InitialisationOutcome last_outcome_ = InitialisationOutcome::kTooFewFrames;  ///< why it is not tracking yet
   Stamp last_frame_ = 0;
+  Stamp last_seeing_ = 0;  ///< the last frame with tracks enough
   int restarts_ = 0;
 };
 

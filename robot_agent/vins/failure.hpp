@@ -19,6 +19,7 @@ const char* to_string(Failure failure);
 
 struct FailureOptions {
   int min_tracked = 5;                  ///< features
+  double max_blind = 1.0;               ///< with fewer of them, by the IMU alone [s]
   double max_accelerometer_bias = 2.5;  ///< [m/s^2]
   double max_gyroscope_bias = 1.0;      ///< [rad/s]
   double max_speed = 60.0;              ///< [m/s]

@@ -26,18 +26,13 @@ std::size_t tracks_across(const std::vector<UnplacedFrame>& frames) {
 }
 
 /// The frames with states predicted from the first one's, and landmarks without depth.
-Window place(const std::vector<UnplacedFrame>& frames, const Pose& T_BS, const MetricStart& start,
-             const ImuBias& bias, double gravity) {
+Window place(const std::vector<UnplacedFrame>& frames, const Pose& T_BS, const NavState& state,
+             double gravity) {
   Window window;
   window.T_BS = T_BS;
   WindowFrame& first = window.frames.emplace_back();
   first.stamp = frames.front().features.stamp;
-  first.state.T_WB.q = Eigen::Quaterniond::FromTwoVectors(start.g_B, Eigen::Vector3d::UnitZ());
-  const Eigen::Vector3d heading = first.state.T_WB.q * Eigen::Vector3d::UnitX();
-  const Eigen::AngleAxisd unturn(-std::atan2(heading.y(), heading.x()), Eigen::Vector3d::UnitZ());
-  first.state.T_WB.q = (unturn * first.state.T_WB.q).normalized();
-  first.state.v_W = first.state.T_WB.q * start.v_B;
-  first.state.bias = bias;
+  first.state = state;
   window.add_observations(frames.front().features);
   learn_distances(window, frames.front().features);  // later ones would need a scale that is not sure yet
   for (std::size_t i = 1; i < frames.size(); ++i) {
@@ -61,15 +56,32 @@ double scale_deviation(const Window& window, const GraphOptions& options) {
   return std::sqrt(along.dot(P.topLeftCorner<3, 3>() * along)) / baseline.norm();
 }
 
-/// The window's own least squares on top of the closed-form start.
+/// State of the first frame from what all of them saw and felt.
+std::optional<NavState> closed_form_state(const std::vector<UnplacedFrame>& frames, const Pose& T_BS,
+                                          const ImuBias& bias, double gravity) {
+  const auto start = estimate_velocity_and_gravity(frames, T_BS, gravity);
+  if (!start) return std::nullopt;
+  NavState state;
+  state.T_WB.q = levelled(start->g_B);
+  state.v_W = state.T_WB.q * start->v_B;
+  state.bias = bias;
+  return state;
+}
+
+Prior prior_of_start(const WindowFrame& first, const InitialisationOptions& options, bool at_rest,
+                     double gravity) {
+  if (at_rest) return rest_prior(first, options.rest, options.prior, gravity);
+  // In proportion to the speed, or the prior itself would tell the scale of a fast start.
+  StartUncertainty uncertainty = options.prior;
+  uncertainty.velocity += first.state.v_W.norm();
+  return start_prior(first, uncertainty);
+}
+
+/// The window's own least squares on top of the first guess, whose prior it has.
 bool refine(Window& window, const InitialisationOptions& options, const WindowOptions& window_options) {
   SolverOptions solver = window_options.solver;
   solver.max_iterations = options.max_iterations;
   solver.graph.trust.mode = TrustMode::kFixed;
-  // In proportion to the speed, or the prior itself would tell the scale of a fast start.
-  StartUncertainty prior = options.prior;
-  prior.velocity += window.frames.front().state.v_W.norm();
-  window.prior = start_prior(window.frames.front(), prior);
   add_calibration_prior(window.prior, window, solver.graph, window_options.calibration);
   triangulate_all(window, solver.graph.min_observations, window_options.default_distance);
   const SolveReport report = solve(window, solver);
@@ -120,7 +132,8 @@ double median_parallax(const std::vector<UnplacedFrame>& frames, const Pose& T_B
 }
 
 Initialisation initialise(const std::vector<UnplacedFrame>& given, const Pose& T_BS,
-                          const InitialisationOptions& options, const WindowOptions& window_options) {
+                          const InitialisationOptions& options, const WindowOptions& window_options,
+                          const std::optional<Rest>& rest) {
   using enum InitialisationOutcome;
   if (given.size() < options.frames) return {.outcome = kTooFewFrames};
   if (to_seconds(given.back().features.stamp - given.front().features.stamp) < options.min_span) {
@@ -128,17 +141,23 @@ Initialisation initialise(const std::vector<UnplacedFrame>& given, const Pose& T
   }
   if (tracks_across(given) < options.min_tracks) return {.outcome = kTooFewTracks};
 
+  const double gravity = window_options.solver.graph.gravity;
   std::vector<UnplacedFrame> frames = given;
-  const auto gyroscope_bias = estimate_gyroscope_bias(frames, T_BS);
-  if (!gyroscope_bias) return {.outcome = kNoSolution};
-  const ImuBias bias{Eigen::Vector3d::Zero(), *gyroscope_bias};
+  ImuBias bias;
+  if (rest) {
+    bias = state_at(*rest, gravity).bias;
+  } else {
+    const auto gyroscope_bias = estimate_gyroscope_bias(frames, T_BS);
+    if (!gyroscope_bias) return {.outcome = kNoSolution};
+    bias.gyroscope = *gyroscope_bias;
+  }
   set_bias(frames, bias);
   if (median_parallax(frames, T_BS) < options.min_parallax) return {.outcome = kTooLittleParallax};
 
-  const double gravity = window_options.solver.graph.gravity;
-  const auto start = estimate_velocity_and_gravity(frames, T_BS, gravity);
-  if (!start) return {.outcome = kNoSolution};
-  Window window = place(frames, T_BS, *start, bias, gravity);
+  const auto first = rest ? state_at(*rest, gravity) : closed_form_state(frames, T_BS, bias, gravity);
+  if (!first) return {.outcome = kNoSolution};
+  Window window = place(frames, T_BS, *first, gravity);
+  window.prior = prior_of_start(window.frames.front(), options, rest.has_value(), gravity);
   if (!refine(window, options, window_options)) return {.outcome = kNoSolution};
 
   Initialisation result;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "robot_agent/vins/gyroscope_bias.hpp"
+#include "robot_agent/vins/rest.hpp"
 #include "robot_agent/vins/sliding_window.hpp"
 
 namespace cosight::vins {
@@ -28,6 +29,7 @@ struct InitialisationOptions {
   double max_scale_deviation = 0.3;   ///< standard deviation of the scale
   double max_misfit = 3.0 / 460.0;    ///< typical misfit after the solution [rad]
   int max_iterations = 30;
+  RestOptions rest;
   StartUncertainty prior{.tilt = 0.2, .velocity = 2.0, .accelerometer_bias = 0.1, .gyroscope_bias = 0.05};
 };
 
@@ -40,9 +42,11 @@ struct Initialisation {
 
 /// States for a few frames from nothing but their features and the IMU between them: gyroscope bias from the
 /// rotations, then velocity, gravity and scale, then everything by the window's own least squares with a wide
-/// prior. W has its origin in the first frame, z up, and that frame's x axis as its heading.
+/// prior. W has its origin in the first frame, z up, and that frame's x axis as its heading. `rest`: of the
+/// first frame, if it was at rest; then its velocity, gravity and biases are known.
 Initialisation initialise(const std::vector<UnplacedFrame>& frames, const Pose& T_BS,
-                          const InitialisationOptions& options, const WindowOptions& window);
+                          const InitialisationOptions& options, const WindowOptions& window,
+                          const std::optional<Rest>& rest = std::nullopt);
 
 /// Median angle between bearings of the first and the last frame that see a feature, without the turn [rad].
 double median_parallax(const std::vector<UnplacedFrame>& frames, const Pose& T_BS);

@@ -9,6 +9,7 @@ constexpr std::size_t kMaxFrames = 64;
 constexpr Stamp kMemory = 5 * kNanosecondsPerSecond;         ///< of the IMU
 constexpr Stamp kMaxAge = kNanosecondsPerSecond / 2;         ///< of a state: its velocity is old by then
 constexpr Stamp kMaxHold = kNanosecondsPerSecond * 2 / 100;  ///< the last sample stands for so much more
+constexpr double kErrorLasts = 1.0;                          ///< about a window's span [s]
 
 }  // namespace
 
@@ -33,6 +34,9 @@ std::optional<UncertainTwist> MotionGuide::twist(Stamp from, Stamp to) const {
       to - last_imu_.stamp > kMaxHold)
     return std::nullopt;
   UncertainNavState start = *known->state;
+  // The state's error, a scale above all, lasts as long as its window; told anew in every frame, it would be
+  // believed so many times.
+  start.covariance *= std::max(1.0, kErrorLasts / to_seconds(to - from));
   if (from > start.stamp)
     start = led_by_imu(start, {samples(start.stamp, from), start.state.bias, noise_}, gravity_);
   return mean_twist(start, {samples(from, to), start.state.bias, noise_}, T_BS_, gravity_);

@@ -10,7 +10,9 @@ namespace cosight::vins {
 
 /// Says how the camera moved between two frames before the second one's image is looked at: the newest state
 /// that VINS found up to the first frame, led on by the IMU. May be asked and told in different threads; the
-/// answer depends on what was found up to the first frame, not on how far VINS is beyond it.
+/// answer depends on what was found up to the first frame, not on how far VINS is beyond it. The errors of
+/// VINS's states last; the answers' covariances are so large that whoever takes them all for independent ends
+/// up about as sure as he may be.
 class MotionGuide {
  public:
   MotionGuide(const ImuNoise& noise, const Pose& T_BS, double gravity)

@@ -30,3 +30,15 @@ run_vins_flight() {
   sed -n '/^vins:/,/^[^ ]/{s/^  first_start_s: /first start [s]: /p}' "$out/vins/summary.yaml" >&2
   "$programs/cosight" summarise "$out" vins --metrics ate_m,ate_rotation_deg,rpe_m,final_error_m,scale_error_percent,frames,path_m
 }
+
+# split_pieces RUN_DIR: RUN_DIR/piece_N.tum, one for each start: after each W is another.
+split_pieces() {
+  rm -f "$1"/piece_*
+  awk -v name="$1/piece_" '/^# started anew/ { ++k } !/^#/ { print > (name k + 1 ".tum") }' "$1/vins.tum"
+}
+
+# longest_piece RUN_DIR: the file with the most poses of those that belong together; false when there is none.
+longest_piece() {
+  split_pieces "$1"
+  wc -l "$1"/piece_*.tum 2>/dev/null | awk '$2 != "total" && $1 > most { most = $1; file = $2 } END { if (!file) exit 1; print file }'
+}
