@@ -1,8 +1,8 @@
-# Trajectories of the rendered canyons, each piece laid onto the truth at its first pose; canyons='…' and modes='…' are given.
+# Trajectories of the rendered canyons, each piece laid onto the truth at its first pose; canyons='…', seed='…' and modes='…' are given.
 set datafile separator ','
 set grid lc rgb '#dddddd'
 array colour[5] = ['#404040', '#e08e0b', '#2a9d4a', '#0060ad', '#d1495b']
-pieces(canyon, mode) = system('ls -d '.canyon.'/'.mode.'/piece_*/errors.csv 2>/dev/null | tr "\n" " "')
+pieces(canyon, mode) = system('ls -d '.canyon.'/'.seed.'/'.mode.'/piece_*/errors.csv 2>/dev/null | tr "\n" " "')
 
 set terminal pngcairo size 1100,480 * words(canyons) font 'sans,10'
 set output 'trajectories.png'
