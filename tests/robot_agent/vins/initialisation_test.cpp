@@ -75,6 +75,37 @@ TEST_P(Cold, StartFindsScaleGravityAndVelocityWithNoise) {
   EXPECT_LT((up - up_truth).norm(), 0.03);
 }
 
+/// What three seconds with a bias in the accelerometer come to, where it is told to be known to `sigma`
+/// [m/s^2]. They are long enough to see the bias whatever was told.
+Initialisation start_with_bias(unsigned seed, double bias, double sigma) {
+  SyntheticDrive drive(seed);
+  drive.bias.accelerometer.z() = bias;
+  InitialisationOptions options;
+  options.prior.accelerometer_bias = sigma;
+  WindowOptions window_options;
+  window_options.solver.graph.trust.pixel_noise = 0.5;
+  return initialise(frames_of(drive, 0.0, 31, 0.25), drive.T_BS(), options, window_options);
+}
+
+TEST_P(Cold, StartWithABiasOfSixSigmasIsNone) {
+  const Initialisation result = start_with_bias(GetParam(), 0.3, 0.05);
+  EXPECT_EQ(result.outcome, InitialisationOutcome::kInconsistent) << to_string(result.outcome);
+  EXPECT_FALSE(result.window);
+  EXPECT_LT(result.typical_misfit, InitialisationOptions().max_misfit) << "the bias alone speaks against it";
+  EXPECT_LT(result.scale_deviation, InitialisationOptions().max_scale_deviation) << "likewise";
+}
+
+TEST_P(Cold, StartWithTheSameBiasIsGivenWhereItCanBeBelieved) {
+  const Initialisation result = start_with_bias(GetParam(), 0.3, 0.1);
+  ASSERT_EQ(result.outcome, InitialisationOutcome::kReady) << to_string(result.outcome);
+  EXPECT_NEAR(result.window->frames.back().state.bias.accelerometer.z(), 0.3, 0.1);
+}
+
+TEST_P(Cold, StartWithABiasOfTwoSigmasIsGiven) {
+  const Initialisation result = start_with_bias(GetParam(), 0.1, 0.05);
+  ASSERT_EQ(result.outcome, InitialisationOutcome::kReady) << to_string(result.outcome);
+}
+
 TEST(Initialisation, SaysThatTooFewFramesAreThere) {
   SyntheticDrive drive(1);
   EXPECT_EQ(initialise(frames_of(drive, 0.0, 5, 0.25), drive.T_BS(), {}, {}).outcome,
