@@ -47,7 +47,8 @@ void measure(const TrackSequence& sequence, TrackRun& run) {
 
 }  // namespace
 
-TrackRun run_tracks(const TrackSequence& sequence, const TrackRunOptions& options) {
+TrackRun run_tracks(const TrackSequence& sequence, const TrackRunOptions& options,
+                    const std::atomic<bool>* stop) {
   WindowOptions window = options.window;
   window.solver.graph.gravity = sequence.gravity;
   WindowOdometry odometry(window, options.noise, sequence.T_BS);
@@ -61,6 +62,7 @@ TrackRun run_tracks(const TrackSequence& sequence, const TrackRunOptions& option
   std::vector<double> solve_ms;
   std::vector<double> marginalise_ms;
   for (std::size_t i = 1; i < std::min(sequence.frames.size(), options.max_frames); ++i) {
+    if (stop != nullptr && *stop) return run;
     const Stamp from = sequence.frames[i - 1].stamp;
     const Stamp to = sequence.frames[i].stamp;
     imu.drop_before(from);

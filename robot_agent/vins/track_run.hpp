@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <vector>
 
 #include "robot_agent/vins/track_files.hpp"
@@ -42,7 +43,9 @@ struct TrackRun {
   double marginalise_ms_median = 0.0;
 };
 
-/// Starts from the true first state and goes through the whole sequence.
-TrackRun run_tracks(const TrackSequence& sequence, const TrackRunOptions& options);
+/// Starts from the true first state and goes through the whole sequence. Once `stop`, which may be null, is
+/// true, it ends where it is, without metrics.
+TrackRun run_tracks(const TrackSequence& sequence, const TrackRunOptions& options,
+                    const std::atomic<bool>* stop = nullptr);
 
 }  // namespace cosight::vins

@@ -1,14 +1,19 @@
 #include <CLI/CLI.hpp>
+#include <atomic>
 #include <cstdio>
 #include <filesystem>
 #include <map>
+#include <stdexcept>
+#include <string>
 
 #include "robot_agent/vins/track_run.hpp"
 #include "shared/evaluation/trajectory_writer.hpp"
+#include "shared/program/program.hpp"
 
 namespace {
 
-using namespace cosight::vins;
+using namespace cosight;        // NOLINT(google-build-using-namespace): a program's own file
+using namespace cosight::vins;  // NOLINT(google-build-using-namespace)
 
 const std::map<std::string, TrustMode> kModes{{"vins", TrustMode::kFixed},
                                               {"ac_g", TrustMode::kGeometry},
@@ -39,7 +44,14 @@ void add_trust_options(CLI::App& app, TrustOptions& trust) {
   app.add_option("--misfit-width", trust.misfit_width, "guarded: in usual misfits");
 }
 
-void add_options(CLI::App& app, TrackRunOptions& options) {
+struct Arguments {
+  std::filesystem::path folder;
+  std::filesystem::path trajectory;
+  TrackRunOptions options;
+};
+
+void add_options(CLI::App& app, Arguments& arguments) {
+  TrackRunOptions& options = arguments.options;
   add_trust_options(app, options.window.solver.graph.trust);
   app.add_option("--min-observations", options.window.solver.graph.min_observations);
   app.add_option("--window", options.window.size, "frames");
@@ -50,6 +62,9 @@ void add_options(CLI::App& app, TrackRunOptions& options) {
   app.add_option("--gyroscope-noise", options.noise.gyroscope, "[rad/s/sqrt(Hz)]");
   app.add_option("--accelerometer-walk", options.noise.accelerometer_walk);
   app.add_option("--gyroscope-walk", options.noise.gyroscope_walk);
+  app.add_option("--frames", options.max_frames, "stop after so many");
+  app.add_option("folder", arguments.folder, "holds cam.txt, imu.txt, tracks.txt and gt_tum.txt")->required();
+  app.add_option("--tum", arguments.trajectory, "write the trajectory here");
 }
 
 void print_summary(const TrackRun& run) {
@@ -60,27 +75,29 @@ void print_summary(const TrackRun& run) {
               run.solve_ms_p99, run.marginalise_ms_median);
 }
 
+void run_and_report(const Arguments& arguments, const std::atomic<bool>& stop) {
+  const TrackRun run = run_tracks(read_track_sequence(arguments.folder), arguments.options, &stop);
+  if (stop) throw std::runtime_error("interrupted");
+  print_summary(run);
+  if (!arguments.trajectory.empty())
+    write_trajectory(arguments.trajectory, run.estimate, TrajectoryFormat::kTum);
+}
+
 }  // namespace
 
-/// Runs the sliding window over a feature-level sequence from its true first state, as the paper reports it.
 int main(int argc, char** argv) {
-  CLI::App app{"Visual-inertial odometry on recorded feature tracks"};
-  std::filesystem::path folder;
-  std::filesystem::path trajectory;
-  TrackRunOptions options;
-  add_options(app, options);
-  app.add_option("--frames", options.max_frames, "stop after so many");
-  app.add_option("folder", folder, "holds cam.txt, imu.txt, tracks.txt and gt_tum.txt")->required();
-  app.add_option("--tum", trajectory, "write the trajectory here");
-  CLI11_PARSE(app, argc, argv);
-  try {
-    const TrackRun run = run_tracks(read_track_sequence(folder), options);
-    print_summary(run);
-    if (!trajectory.empty())
-      cosight::write_trajectory(trajectory, run.estimate, cosight::TrajectoryFormat::kTum);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "vins_tracks: %s\n", error.what());
-    return 1;
-  }
-  return 0;
+  Program program(
+      {.name = "vins_tracks",
+       .purpose =
+           "Visual-inertial odometry on recorded feature tracks, from their true first state, as the paper "
+           "reports it.",
+       .examples = "  vins_tracks tracks/uc2_20 --mode ac_me_guarded --pixel-noise 0.25 --tum guarded.tum\n"
+                   "  vins_tracks tracks/uc1_9 --mode vins --frames 700\n"});
+  Arguments arguments;
+  add_options(program.command_line(), arguments);
+  return program.run(argc, argv, [&](const ConfigFile& config, const std::atomic<bool>& stop) {
+    config.refuse_unknown_keys();
+    run_and_report(arguments, stop);
+    return ExitCode::kDone;
+  });
 }
