@@ -85,6 +85,16 @@ TEST(DetectFailure, TakesTheSpeedWhateverItsDirection) {
   EXPECT_EQ(detect_failure(report, limits()), Failure::kTooFast);
 }
 
+TEST(DetectFailure, BelievesOthersDistancesWhereSeveralContradictTheScale) {
+  WindowReport report = good_report();
+  report.distances = {.count = 12, .ratio = 1.2};
+  EXPECT_EQ(detect_failure(report, limits()), Failure::kNone);
+  report.distances.ratio = 2.0;
+  EXPECT_EQ(detect_failure(report, limits()), Failure::kWrongScale);
+  report.distances.ratio = 0.5;
+  EXPECT_EQ(detect_failure(report, limits()), Failure::kWrongScale);
+}
+
 TEST(DetectFailure, FindsAJumpAgainstThePrediction) {
   WindowReport report = good_report();
   report.state.T_WB.p = report.predicted.T_WB.p + 3.99 * Vector3d(0.6, 0.0, -0.8);
@@ -158,6 +168,7 @@ TEST(DetectFailure, NamesWhatComesFirstOfSeveral) {
   report.tracked = 0;
   report.state.bias.gyroscope.x() = 9.0;
   report.state.v_W.x() = 900.0;
+  report.distances = {.count = 12, .ratio = 9.0};
   report.state.T_WB.p.x() += 90.0;
   EXPECT_EQ(detect_failure(report, limits()), Failure::kSolverFailed);
   report.solve.usable = true;
@@ -167,6 +178,8 @@ TEST(DetectFailure, NamesWhatComesFirstOfSeveral) {
   report.state.bias = good.state.bias;
   EXPECT_EQ(detect_failure(report, limits()), Failure::kTooFast);
   report.state.v_W = good.state.v_W;
+  EXPECT_EQ(detect_failure(report, limits()), Failure::kWrongScale);
+  report.distances = good.distances;
   EXPECT_EQ(detect_failure(report, limits()), Failure::kJumped);
   report.state.T_WB = good.state.T_WB;
   EXPECT_EQ(detect_failure(report, limits()), Failure::kNone);
