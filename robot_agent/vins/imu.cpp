@@ -15,9 +15,17 @@ bool older(const ImuSample& sample, Stamp stamp) {
 
 bool ImuBuffer::push(const ImuSample& sample) {
   if (!sample.acceleration_B.allFinite() || !sample.angular_velocity_B.allFinite()) return false;
+  if (last_is_ahead_of(sample.stamp)) samples_.pop_back();
   if (!samples_.empty() && sample.stamp <= samples_.back().stamp) return false;
   samples_.push_back(sample);
   return true;
+}
+
+/// Otherwise one sample from the future would be the last for ever.
+bool ImuBuffer::last_is_ahead_of(Stamp stamp) const {
+  constexpr Stamp kFarAhead = kNanosecondsPerSecond;
+  const std::size_t count = samples_.size();
+  return count > 1 && samples_[count - 1].stamp - stamp > kFarAhead && samples_[count - 2].stamp < stamp;
 }
 
 bool ImuBuffer::covers(Stamp from, Stamp to) const {

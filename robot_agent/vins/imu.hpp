@@ -33,7 +33,8 @@ struct ImuNoise {
 /// The measurements that no frame has used yet, in the order of their stamps.
 class ImuBuffer {
  public:
-  /// False, and nothing kept, when the sample is not newer than the last one or not finite.
+  /// False, and nothing kept, when the sample is not newer than the last one or not finite. A last one that
+  /// was more than a second ahead of all others goes instead.
   bool push(const ImuSample& sample);
 
   bool covers(Stamp from, Stamp to) const;
@@ -53,6 +54,7 @@ class ImuBuffer {
 
  private:
   ImuSample at(Stamp stamp) const;
+  bool last_is_ahead_of(Stamp stamp) const;
 
   std::deque<ImuSample> samples_;
 };

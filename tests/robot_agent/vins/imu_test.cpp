@@ -31,6 +31,16 @@ TEST(ImuBuffer, SpansThatEndOnASampleHaveItOnce) {
   EXPECT_EQ(buffer.between(10, 30).size(), 3U);
 }
 
+TEST(ImuBuffer, GoesOnAfterASampleFromTheFuture) {
+  ImuBuffer buffer;
+  EXPECT_TRUE(buffer.push(sample(10, 1.0)));
+  EXPECT_TRUE(buffer.push(sample(10 + 5 * kNanosecondsPerSecond, 1.0)));
+  EXPECT_TRUE(buffer.push(sample(20, 2.0)));
+  EXPECT_TRUE(buffer.push(sample(30, 3.0)));
+  EXPECT_TRUE(buffer.covers(10, 30));
+  EXPECT_FALSE(buffer.covers(10, 31));
+}
+
 TEST(ImuBuffer, RefusesWhatIsOldOrNotFinite) {
   ImuBuffer buffer;
   EXPECT_TRUE(buffer.push(sample(10, 1.0)));

@@ -47,6 +47,15 @@ TEST_F(MotionCsv, BadAhrsRowsAreCounted) {
   EXPECT_EQ(source->counters().stamp_went_back, 1U);
 }
 
+TEST_F(MotionCsv, ARowFromTheFutureIsNotTheLast) {
+  const auto source =
+      open_ahrs_csv(write("a.csv",
+                          "stamp_ns,qx,qy,qz,qw\n1000,0,0,0,1\n2000,0,0,0,1\n99000000000,0,0,0,1\n"
+                          "3000,0,0,0,1\n4000,0,0,0,1\n"));
+  EXPECT_THAT(stamps_of(all_of(*source)), ElementsAre(1000, 2000, 3000, 4000));
+  EXPECT_EQ(source->counters().stamp_went_back, 1U);
+}
+
 TEST_F(MotionCsv, APoseWithoutCovarianceGetsTheConfiguredOne) {
   const auto samples = poses("stamp_ns,px,py,pz,qx,qy,qz,qw\n7,1,2,3,0,0,0.6,0.8\n");
   ASSERT_EQ(samples.size(), 1U);
