@@ -20,5 +20,23 @@ TEST(RobotOptions, WhatTheYawOffsetLeavesOpenIsSlamsToFind) {
   EXPECT_DOUBLE_EQ(options.slam.yaw_offset.prior.sigma, M_PI / 20);
 }
 
+VinsHelp help_of(const std::string& vins) {
+  return read_robot_options(ConfigFile::parse("input: {dataset: folder}\n" + vins, "test.yaml").root())
+      .vins_help;
+}
+
+TEST(RobotOptions, SlamAndVinsHelpEachOtherWhereBothRun) {
+  EXPECT_TRUE(help_of("vins: {enable: true}").guides_slam);
+  EXPECT_TRUE(help_of("vins: {enable: true}").takes_depths);
+  EXPECT_FALSE(help_of("vins: {enable: true, guide_slam: false}").guides_slam);
+  EXPECT_FALSE(help_of("vins: {enable: true, take_depths: false}").takes_depths);
+}
+
+TEST(RobotOptions, NobodyHelpsWhereOneRunsAlone) {
+  EXPECT_FALSE(help_of("").takes_depths);
+  EXPECT_FALSE(help_of("only: vins").takes_depths);
+  EXPECT_FALSE(help_of("only: vins").guides_slam);
+}
+
 }  // namespace
 }  // namespace cosight::robot

@@ -7,6 +7,7 @@
 
 #include "robot_agent/slam/epipolar_error.hpp"
 #include "shared/geometry/rotation.hpp"
+#include "tests/robot_agent/slam/plain_camera.hpp"
 
 namespace cosight::slam {
 namespace {
@@ -16,22 +17,12 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 constexpr double kDegree = 0.017453292519943295;
 
-CameraModel camera() {
-  CameraModel model;
-  model.width = 720;
-  model.height = 480;
-  model.fx = model.fy = 520.0;
-  model.cx = 359.5;
-  model.cy = 239.5;
-  return model;
-}
-
 /// A wearer 1.2 m ahead and 0.7 m to the left of the robot, both looking into a room; the sensors' pose of Cf
 /// is off by a draw from its own covariance.
 class Trial {
  public:
   explicit Trial(std::uint64_t seed) : random_(seed) {
-    rig_.camera_S = rig_.camera_F = camera();
+    rig_.camera_S = rig_.camera_F = plain_camera();
     rig_.sigma_pixel_S = rig_.sigma_pixel_F = 0.5;
     rig_.T_SF.covariance.diagonal() << 16e-4, 16e-4, 16e-4, 1e-4, 3e-4, 1e-4;
     Vector6 xi;
@@ -47,9 +38,10 @@ class Trial {
       const double depth = 2.5 + 8.0 * share(random_);
       const Eigen::Vector3d p_S(depth * (1.2 * share(random_) - 0.6), depth * (0.8 * share(random_) - 0.4),
                                 depth);
-      const auto pixel_S = camera().project(p_S);
-      const auto pixel_F = camera().project(truth_.inverse() * p_S);
-      if (!pixel_S || !pixel_F || !camera().contains(*pixel_S) || !camera().contains(*pixel_F)) continue;
+      const auto pixel_S = plain_camera().project(p_S);
+      const auto pixel_F = plain_camera().project(truth_.inverse() * p_S);
+      if (!pixel_S || !pixel_F || !plain_camera().contains(*pixel_S) || !plain_camera().contains(*pixel_F))
+        continue;
       result.push_back({*pixel_S, *pixel_F});
     }
     return result;

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "shared/geometry/rotation.hpp"
+#include "tests/robot_agent/slam/plain_camera.hpp"
 
 namespace cosight::slam {
 namespace {
@@ -14,20 +15,10 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-CameraModel camera() {
-  CameraModel model;
-  model.width = 720;
-  model.height = 480;
-  model.fx = model.fy = 520.0;
-  model.cx = 359.5;
-  model.cy = 239.5;
-  return model;
-}
-
 /// Cf 1.2 m ahead of Cs and 0.7 m to its left, its pose known to centimetres.
 ekf::StereoRig rig() {
   ekf::StereoRig rig;
-  rig.camera_S = rig.camera_F = camera();
+  rig.camera_S = rig.camera_F = plain_camera();
   rig.sigma_pixel_S = rig.sigma_pixel_F = 0.5;
   rig.T_SF.T = {quaternion_exp(Vector3d(0.02, 0.1, -0.01)), Vector3d(-0.7, -0.1, 1.2)};
   rig.T_SF.covariance.diagonal() << 4e-4, 4e-4, 4e-4, 1e-6, 1e-6, 1e-6;
@@ -35,7 +26,7 @@ ekf::StereoRig rig() {
 }
 
 ekf::StereoMatch match_of(const Vector3d& p_S, const Pose& T_SF) {
-  return {*camera().project(p_S), *camera().project(T_SF.inverse() * p_S)};
+  return {*plain_camera().project(p_S), *plain_camera().project(T_SF.inverse() * p_S)};
 }
 
 ekf::MeasurementReport report_of(ekf::LandmarkId landmark, ekf::MeasurementKind kind, ekf::Outcome outcome) {
