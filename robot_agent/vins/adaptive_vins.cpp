@@ -53,7 +53,7 @@ VinsEstimate AdaptiveVins::initialise_with(const FeatureFrame& frame) {
                                       options_.window, from_rest ? rest_ : std::nullopt);
   estimate.initialisation = last_outcome_ = started.outcome;
   if (started.window) {
-    odometry_.start(std::move(*started.window));
+    odometry_.start(std::move(*started.window), from_rest);
     tracking_ = true;
     last_seeing_ = frame.stamp;
     waiting_.clear();

@@ -52,9 +52,9 @@ void WindowOdometry::start(const FeatureFrame& frame, const NavState& state,
   window_.add_observations(frame);
 }
 
-void WindowOdometry::start(Window window) {
+void WindowOdometry::start(Window window, bool is_sure) {
   window_ = std::move(window);
-  settled_ = window_.frames.back().stamp + from_seconds(options_.settling_time);
+  settled_ = window_.frames.back().stamp + from_seconds(is_sure ? 0.0 : options_.settling_time);
   while (window_.frames.size() >= options_.size)
     slide(window_, true, options_);
 }

@@ -36,8 +36,9 @@ class WindowOdometry {
   /// Starts anew with one frame whose state is known that well.
   void start(const FeatureFrame& frame, const NavState& state, const StartUncertainty& uncertainty);
 
-  /// Starts anew with the frames, landmarks and states of an initialisation.
-  void start(Window window);
+  /// Starts anew with the frames, landmarks and states of an initialisation. `is_sure`: they can't be quite
+  /// wrong, so that the guarded mode may act at once.
+  void start(Window window, bool is_sure = false);
 
   /// The newest state right after such a start.
   WindowReport report_of_start() const;
