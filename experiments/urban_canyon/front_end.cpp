@@ -97,7 +97,7 @@ std::vector<vins::TrackedFeature> FrontEnd::look(const CityView& view) {
   choose_new(view);
   std::vector<vins::TrackedFeature> features;
   for (const auto& [city_point, track] : tracks_) {
-    features.push_back({track.id, {in_plane(track.seen), Vector2d::Zero()}});
+    features.push_back({track.id, {in_plane(track.seen)}});
     sightings_ += 1.0;
     if (!city_point.moves()) continue;
     moving_sightings_ += 1.0;

@@ -11,6 +11,11 @@ FactorGraph::FactorGraph(const Window& window, const GraphOptions& options, Grap
   for (const WindowFrame& frame : window.frames) {
     blocks_.push_back({pose_block(frame.state.T_WB), motion_block(frame.state)});
   }
+  twists_.resize(window.frames.size());
+  if (options.estimate_time_offset || window.time_offset != 0.0) {
+    for (std::size_t i = 0; i < twists_.size(); ++i)
+      twists_[i] = window.twist(i);
+  }
   blocks_.push_back({pose_block(window.T_BS), {window.time_offset}});
   if (!window.prior.empty()) prior_.emplace(window.prior);
   if (scope == GraphScope::kPrior) return;
@@ -49,7 +54,8 @@ void FactorGraph::add_landmark(const Landmark& landmark) {
     const std::size_t target = window_.slot(seen.frame);
     feature.geometry_factor = window_.frames[target].geometry_factor;
     const Trust how = trust(options_.trust, feature);
-    visual_.emplace_back(first.sighting, seen.sighting, how.sqrt_information, loss(how),
+    visual_.emplace_back(MovingSighting{first.sighting, twists_[host]},
+                         MovingSighting{seen.sighting, twists_[target]}, how.sqrt_information, loss(how),
                          landmarks_.size() - 1, host, target);
   }
 }

@@ -38,7 +38,7 @@ class FactorGraph {
  public:
   /// A sighting's factor. Blocks: pose of host, pose of target, extrinsics, landmark, time offset.
   struct VisualTerm {
-    VisualTerm(const Sighting& first, const Sighting& now, double sqrt_information,
+    VisualTerm(const MovingSighting& first, const MovingSighting& now, double sqrt_information,
                const ceres::LossFunction* kernel, std::size_t index, std::size_t from, std::size_t to)
         : factor(first, now, sqrt_information), loss(kernel), landmark(index), host(from), target(to) {}
 
@@ -113,6 +113,7 @@ class FactorGraph {
   /// parameters in the order of their addresses: sums would depend in their last digit on where the heap
   /// lies.
   std::vector<FrameBlocks> blocks_;
+  std::vector<BodyTwist> twists_;  ///< of the frames; at rest where nothing depends on them
   std::vector<LandmarkBlock> landmarks_;
   std::deque<HostTerm> hosts_;  ///< one a landmark
   std::vector<FeatureId> landmark_ids_;

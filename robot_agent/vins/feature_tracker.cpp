@@ -23,30 +23,25 @@ FeatureTracker::~FeatureTracker() = default;
 
 FeatureFrame FeatureTracker::track(Stamp stamp, const GrayImage& image) {
   tools_->tracker.advance(image);
-  follow(to_seconds(stamp - last_));
-  last_ = stamp;
+  follow();
   replenish(image);
   FeatureFrame frame{stamp, {}};
-  for (std::size_t i = 0; i < features_.size(); ++i) {
-    frame.features.push_back({features_[i].id, {features_[i].point, velocities_[i]}});
-  }
+  for (const Feature& feature : features_)
+    frame.features.push_back({feature.id, {feature.point}});
   return frame;
 }
 
-void FeatureTracker::follow(double dt) {
+void FeatureTracker::follow() {
   std::vector<vision::TrackStart> starts;
   for (const Feature& feature : features_)
     starts.push_back({feature.pixel, feature.pixel, nullptr});
   const std::vector<vision::Track> tracks = tools_->tracker.track(starts);
   std::vector<Feature> kept;
-  velocities_.clear();
   for (std::size_t i = 0; i < features_.size(); ++i) {
     if (!tracks[i]) continue;
     const auto ray = camera_.unproject(tracks[i].pixel);
     if (!ray) continue;
-    const Eigen::Vector2d point = ray->head<2>();
-    velocities_.emplace_back((point - features_[i].point) / dt);
-    kept.push_back({features_[i].id, tracks[i].pixel, point});
+    kept.push_back({features_[i].id, tracks[i].pixel, ray->head<2>()});
   }
   features_ = std::move(kept);
 }
@@ -61,7 +56,6 @@ void FeatureTracker::replenish(const GrayImage& image) {
     const auto ray = camera_.unproject(corner.pixel);
     if (!ray) continue;
     features_.push_back({next_id_++, corner.pixel, ray->head<2>()});
-    velocities_.emplace_back(Eigen::Vector2d::Zero());
   }
 }
 

@@ -36,16 +36,14 @@ class FeatureTracker {
     Eigen::Vector2d point;  ///< undistorted [x/z, y/z]
   };
 
-  void follow(double dt);
+  void follow();
   void replenish(const GrayImage& image);
 
   CameraModel camera_;
   FeatureTrackerOptions options_;
   std::unique_ptr<Tools> tools_;
   std::vector<Feature> features_;
-  std::vector<Eigen::Vector2d> velocities_;  ///< of features_, [1/s]
   FeatureId next_id_ = 0;
-  Stamp last_ = 0;
 };
 
 }  // namespace cosight::vins

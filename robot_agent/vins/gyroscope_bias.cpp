@@ -36,11 +36,11 @@ double kernel_weight(double r) {
 std::vector<std::pair<Vector3d, Vector3d>> common_bearings(const FeatureFrame& i, const FeatureFrame& j) {
   std::map<FeatureId, Vector3d> first;
   for (const TrackedFeature& feature : i.features)
-    first.emplace(feature.id, feature.sighting.bearing(0.0));
+    first.emplace(feature.id, feature.sighting.bearing());
   std::vector<std::pair<Vector3d, Vector3d>> pairs;
   for (const TrackedFeature& feature : j.features) {
     const auto seen = first.find(feature.id);
-    if (seen != first.end()) pairs.emplace_back(seen->second, feature.sighting.bearing(0.0));
+    if (seen != first.end()) pairs.emplace_back(seen->second, feature.sighting.bearing());
   }
   return pairs;
 }

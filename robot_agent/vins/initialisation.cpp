@@ -118,7 +118,7 @@ double median_parallax(const std::vector<UnplacedFrame>& frames, const Pose& T_B
   for (const UnplacedFrame& frame : frames) {
     if (frame.imu) q_B0B = q_B0B * frame.imu->increment().gamma;
     for (const TrackedFeature& feature : frame.features.features) {
-      const Eigen::Vector3d ray = q_B0B * (T_BS.q * feature.sighting.bearing(0.0));
+      const Eigen::Vector3d ray = q_B0B * (T_BS.q * feature.sighting.bearing());
       ends.try_emplace(feature.id, ray, ray).first->second.second = ray;
     }
   }

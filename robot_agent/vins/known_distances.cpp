@@ -11,7 +11,7 @@ int give_distances(const std::vector<DistanceSighting>& places, double max_apart
     TrackedFeature* nearest = nullptr;
     double nearest_apart = max_apart;
     for (TrackedFeature& feature : frame.features) {
-      const double apart = (feature.sighting.bearing(0.0) - ray).norm();
+      const double apart = (feature.sighting.bearing() - ray).norm();
       if (feature.distance || apart > nearest_apart) continue;
       nearest = &feature;
       nearest_apart = apart;
@@ -29,7 +29,7 @@ void learn_distances(Window& window, const FeatureFrame& newest) {
     if (!feature.distance) continue;
     Landmark& landmark = window.landmarks.at(feature.id);
     const Pose T_WSi = window.T_WS(window.slot(landmark.observations.front().frame));
-    const Eigen::Vector3d ray = feature.sighting.bearing(window.time_offset);
+    const Eigen::Vector3d ray = feature.sighting.bearing();
     const KnownDistance from_host = seen_from(*feature.distance, ray, T_WSi.inverse() * T_WSj);
     landmark.known = landmark.known ? fused(*landmark.known, from_host) : from_host;
   }

@@ -18,7 +18,7 @@ double misfit(const Window& window, const Landmark& landmark) {
     if (seen.frame == window.frames.back().id) continue;
     const Pose T_ji = window.T_WS(window.slot(seen.frame)).inverse() * T_WSi;
     const Eigen::Vector3d h = T_ji.q * f_i + landmark.lambda * T_ji.p;
-    squares += (h.normalized() - seen.sighting.bearing(window.time_offset)).squaredNorm();
+    squares += (h.normalized() - seen.sighting.bearing()).squaredNorm();
     ++count;
   }
   constexpr int kMinSightings = 2;

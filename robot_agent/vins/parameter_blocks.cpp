@@ -31,6 +31,11 @@ NavState to_state(const double* pose, const double* motion) {
           {Map<const Vector3d>(motion + 3), Map<const Vector3d>(motion + 6)}};
 }
 
+Pose led_on(const Pose& T_WB, const BodyTwist& twist, double dt) {
+  if (dt == 0.0) return T_WB;
+  return {T_WB.q * quaternion_exp(dt * twist.w_B), T_WB.p + dt * twist.v_W};
+}
+
 Pose moved(const Pose& T, const double* delta) {
   return {(T.q * quaternion_exp(Map<const Vector3d>(delta + 3))).normalized(),
           T.p + Map<const Vector3d>(delta)};

@@ -23,6 +23,15 @@ Pose to_pose(const double* block);
 MotionBlock motion_block(const NavState& state);
 NavState to_state(const double* pose, const double* motion);
 
+/// How a body moves at some instant.
+struct BodyTwist {
+  Eigen::Vector3d v_W = Eigen::Vector3d::Zero();  ///< [m/s]
+  Eigen::Vector3d w_B = Eigen::Vector3d::Zero();  ///< [rad/s]
+};
+
+/// T_WB `dt` seconds later, the twist being constant: p + v_W dt, q Exp(w_B dt). The very same at dt = 0.
+Pose led_on(const Pose& T_WB, const BodyTwist& twist, double dt);
+
 /// T + [dp, dtheta]; `delta` has six entries.
 Pose moved(const Pose& T, const double* delta);
 /// [dp, dtheta] that moves `from` to `to`.

@@ -19,17 +19,18 @@ Matrix3d normalisation(const Vector3d& v) {
   return (Matrix3d::Identity() - u * u.transpose()) / norm;
 }
 
-/// d bearing(offset) / d offset.
-Vector3d bearing_rate(const Sighting& s, double offset) {
-  const Vector3d v = (s.point - offset * s.velocity).homogeneous();
-  return normalisation(v) * Vector3d(-s.velocity.x(), -s.velocity.y(), 0.0);
-}
-
 /// A [v]x: each row a becomes a x v.
 Matrix23 times_skew(const Matrix23& A, const Vector3d& v) {
   Matrix23 out;
   out << A.row(0).cross(v.transpose()), A.row(1).cross(v.transpose());
   return out;
+}
+
+/// d r / d theta at a stamp, from `d_theta` the time offset later: R Exp(w offset) turns by Exp(w offset)^T
+/// theta where R turns by theta.
+Matrix23 at_stamp(const Matrix23& d_theta, const BodyTwist& twist, double offset) {
+  if (offset == 0.0) return d_theta;
+  return d_theta * quaternion_exp(-offset * twist.w_B).toRotationMatrix();
 }
 
 void fill_pose(double* jacobian, const Matrix23& d_p, const Matrix23& d_theta) {
@@ -49,8 +50,8 @@ Eigen::Matrix<double, 2, 3> tangent_basis(const Vector3d& f) {
   return basis;
 }
 
-Vector3d host_bearing(const Sighting& first, const Eigen::Vector2d& beside, double offset) {
-  return (first.bearing(offset) + tangent_basis(first.bearing(0.0)).transpose() * beside).normalized();
+Vector3d host_bearing(const Sighting& first, const Eigen::Vector2d& beside) {
+  return (first.bearing() + tangent_basis(first.bearing()).transpose() * beside).normalized();
 }
 
 bool HostFactor::Evaluate(double const* const* parameters, double* residuals, double** jacobians) const {
@@ -62,32 +63,35 @@ bool HostFactor::Evaluate(double const* const* parameters, double* residuals, do
   return true;
 }
 
-ReprojectionFactor::ReprojectionFactor(const Sighting& first, const Sighting& now, double sqrt_information)
-    : first_(first),
-      now_(now),
-      first_tangent_(tangent_basis(first.bearing(0.0))),
-      weighted_tangent_(sqrt_information * tangent_basis(now.bearing(0.0))) {}
+ReprojectionFactor::ReprojectionFactor(const MovingSighting& first, const MovingSighting& now,
+                                       double sqrt_information)
+    : f_i_(first.sighting.bearing()),
+      f_j_(now.sighting.bearing()),
+      twist_i_(first.twist),
+      twist_j_(now.twist),
+      first_tangent_(tangent_basis(f_i_)),
+      weighted_tangent_(sqrt_information * tangent_basis(f_j_)) {}
 
 bool ReprojectionFactor::Evaluate(double const* const* parameters, double* residuals,
                                   double** jacobians) const {
-  const Pose T_WBi = to_pose(parameters[0]);
-  const Pose T_WBj = to_pose(parameters[1]);
+  const double offset = *parameters[4];
+  const Pose T_WBi = led_on(to_pose(parameters[0]), twist_i_, offset);
+  const Pose T_WBj = led_on(to_pose(parameters[1]), twist_j_, offset);
   const Pose T_BS = to_pose(parameters[2]);
   const double lambda = *parameters[3];
-  const double offset = *parameters[4];
 
   const Matrix3d R_i = T_WBi.q.toRotationMatrix();
   const Matrix3d R_j = T_WBj.q.toRotationMatrix();
   const Matrix3d R_BS = T_BS.q.toRotationMatrix();
-  const Vector3d ray_i = first_.bearing(offset) +
-                         first_tangent_.transpose() * Eigen::Map<const Eigen::Vector2d>(parameters[3] + 1);
+  const Vector3d ray_i =
+      f_i_ + first_tangent_.transpose() * Eigen::Map<const Eigen::Vector2d>(parameters[3] + 1);
   const Vector3d f_i = ray_i.normalized();
   const Vector3d h_Bi = R_BS * f_i + lambda * T_BS.p;
   const Vector3d h_Bj = R_j.transpose() * (R_i * h_Bi + lambda * (T_WBi.p - T_WBj.p));
   const Vector3d h_Sj = R_BS.transpose() * (h_Bj - lambda * T_BS.p);
   const double norm = h_Sj.norm();
   const Vector3d f_h = h_Sj / norm;
-  Eigen::Map<Eigen::Vector2d>(residuals).noalias() = weighted_tangent_ * (f_h - now_.bearing(offset));
+  Eigen::Map<Eigen::Vector2d>(residuals).noalias() = weighted_tangent_ * (f_h - f_j_);
   if (jacobians == nullptr) return true;
 
   const Matrix23 d_h =
@@ -95,8 +99,12 @@ bool ReprojectionFactor::Evaluate(double const* const* parameters, double* resid
   const Matrix23 d_Bj = d_h * R_BS.transpose();                                  // d r / d h_Bj
   const Matrix23 d_W = d_Bj * R_j.transpose();
   const Matrix23 d_Bi = d_W * R_i;
-  if (jacobians[0] != nullptr) fill_pose(jacobians[0], lambda * d_W, -times_skew(d_Bi, h_Bi));
-  if (jacobians[1] != nullptr) fill_pose(jacobians[1], -lambda * d_W, times_skew(d_Bj, h_Bj));
+  if (jacobians[0] != nullptr) {
+    fill_pose(jacobians[0], lambda * d_W, at_stamp(-times_skew(d_Bi, h_Bi), twist_i_, offset));
+  }
+  if (jacobians[1] != nullptr) {
+    fill_pose(jacobians[1], -lambda * d_W, at_stamp(times_skew(d_Bj, h_Bj), twist_j_, offset));
+  }
   if (jacobians[2] != nullptr) {
     fill_pose(jacobians[2], lambda * (d_Bi - d_Bj), times_skew(d_h, h_Sj) - times_skew(d_Bi * R_BS, f_i));
   }
@@ -106,9 +114,9 @@ bool ReprojectionFactor::Evaluate(double const* const* parameters, double* resid
     J.rightCols<2>() = d_Bi * R_BS * normalisation(ray_i) * first_tangent_.transpose();
   }
   if (jacobians[4] != nullptr) {
-    Eigen::Map<Eigen::Vector2d>(jacobians[4]).noalias() =
-        d_Bi * R_BS * normalisation(ray_i) * bearing_rate(first_, offset) -
-        weighted_tangent_ * bearing_rate(now_, offset);
+    Eigen::Map<Eigen::Vector2d>(jacobians[4]).noalias() = d_W * (lambda * (twist_i_.v_W - twist_j_.v_W)) +
+                                                          d_Bi * twist_i_.w_B.cross(h_Bi) -
+                                                          d_Bj * twist_j_.w_B.cross(h_Bj);
   }
   return true;
 }

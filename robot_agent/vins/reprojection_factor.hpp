@@ -9,15 +9,18 @@
 
 namespace cosight::vins {
 
-/// One sighting of a landmark, as the time offset between camera and IMU moves it.
+/// One sighting of a landmark.
 struct Sighting {
-  Eigen::Vector2d point = Eigen::Vector2d::Zero();     ///< [x/z, y/z]
-  Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  ///< of `point` in the image [1/s]
+  Eigen::Vector2d point = Eigen::Vector2d::Zero();  ///< [x/z, y/z]
 
-  /// Unit vector towards the landmark had the image been taken `offset` seconds later than its stamp says.
-  Eigen::Vector3d bearing(double offset) const {
-    return (point - offset * velocity).homogeneous().normalized();
-  }
+  /// Unit vector towards the landmark.
+  Eigen::Vector3d bearing() const { return point.homogeneous().normalized(); }
+};
+
+/// A sighting, and how the body moved at it.
+struct MovingSighting {
+  Sighting sighting;
+  BodyTwist twist = {};
 };
 
 /// What is estimated of a landmark: [lambda (1/m), a, b]; a, b: how far it lies beside its first sighting, in
@@ -26,7 +29,7 @@ struct Sighting {
 using LandmarkBlock = std::array<double, 3>;
 
 /// Unit vector towards a landmark from its host: f_i = (f(first) + [b1 b2] [a b]^T) / | |.
-Eigen::Vector3d host_bearing(const Sighting& first, const Eigen::Vector2d& beside, double offset);
+Eigen::Vector3d host_bearing(const Sighting& first, const Eigen::Vector2d& beside);
 
 /// A landmark seen from frame j, against where its host i and its inverse distance lambda put it; residual on
 /// the tangent plane of the unit sphere (V14-V19):
@@ -35,16 +38,21 @@ Eigen::Vector3d host_bearing(const Sighting& first, const Eigen::Vector2d& besid
 ///   r    = sqrt_information * [b1 b2]^T ( h_Sj / |h_Sj| - f_j )
 ///
 /// h is the landmark in S_j times lambda, so that landmarks at infinity are fine. b1, b2: tangent at f_j.
+/// i and j are the body when the images were really taken, the time offset later than at their stamps: there
+/// by the twists of the two frames, which count as known. VINS-Mono moves the sightings instead, by their
+/// velocities in the image. Those are differences of noisy sightings, so that an offset of half a period has
+/// the least noise, and is found where the frames are far apart.
 /// Parameters: T_WB of i, T_WB of j, T_BS, LandmarkBlock, time offset [s].
 class ReprojectionFactor final : public ceres::SizedCostFunction<2, 7, 7, 7, 3, 1> {
  public:
   /// `sqrt_information`: one over the standard deviation of a bearing [1/rad].
-  ReprojectionFactor(const Sighting& first, const Sighting& now, double sqrt_information);
+  ReprojectionFactor(const MovingSighting& first, const MovingSighting& now, double sqrt_information);
 
   bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override;
 
  private:
-  Sighting first_, now_;
+  Eigen::Vector3d f_i_, f_j_;  ///< bearings of the two sightings
+  BodyTwist twist_i_, twist_j_;
   Eigen::Matrix<double, 2, 3> first_tangent_;     ///< of the first sighting
   Eigen::Matrix<double, 2, 3> weighted_tangent_;  ///< sqrt_information * [b1 b2]^T
 };

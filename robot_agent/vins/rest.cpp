@@ -18,11 +18,11 @@ std::optional<double> median_motion(const FeatureFrame& from, const FeatureFrame
                                     std::size_t min_features) {
   std::map<FeatureId, Vector3d> before;
   for (const TrackedFeature& feature : from.features)
-    before.emplace(feature.id, feature.sighting.bearing(0.0));
+    before.emplace(feature.id, feature.sighting.bearing());
   std::vector<double> angles;
   for (const TrackedFeature& feature : to.features) {
     const auto seen = before.find(feature.id);
-    if (seen != before.end()) angles.push_back((feature.sighting.bearing(0.0) - seen->second).norm());
+    if (seen != before.end()) angles.push_back((feature.sighting.bearing() - seen->second).norm());
   }
   if (angles.size() < std::max<std::size_t>(min_features, 1)) return std::nullopt;
   const auto middle = angles.begin() + static_cast<std::ptrdiff_t>(angles.size() / 2);

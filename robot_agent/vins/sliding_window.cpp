@@ -35,7 +35,7 @@ void lose_first(Landmark& landmark, std::size_t count, const Window& window) {
   if (!landmark.has_depth) return;
   // Times lambda, as in the reprojection factor.
   const Eigen::Vector3d h = T.q * ray + landmark.lambda * T.p;
-  const Eigen::Vector3d seen = landmark.observations.front().sighting.bearing(window.time_offset);
+  const Eigen::Vector3d seen = landmark.observations.front().sighting.bearing();
   landmark.has_depth = h.dot(seen) > 0.0;
   landmark.lambda /= h.norm();
   landmark.beside = tangent_basis(seen) * (h / h.dot(seen));
@@ -140,7 +140,7 @@ void update_geometry_factors(Window& window) {
   for (const auto& [id, landmark] : window.landmarks) {
     if (!landmark.has_depth) continue;
     for (const Observation& seen : landmark.observations) {
-      directions[window.slot(seen.frame)].push_back(seen.sighting.bearing(window.time_offset));
+      directions[window.slot(seen.frame)].push_back(seen.sighting.bearing());
     }
   }
   for (std::size_t i = 0; i < directions.size(); ++i) {

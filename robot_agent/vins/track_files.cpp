@@ -1,7 +1,6 @@
 #include "robot_agent/vins/track_files.hpp"
 
 #include <fstream>
-#include <map>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -59,21 +58,6 @@ void read_imu(const std::filesystem::path& file, TrackSequence& sequence) {
   }
 }
 
-/// Fills in how fast each feature moves in the image, from its place in the frame before.
-void add_velocities(std::vector<FeatureFrame>& frames) {
-  std::map<FeatureId, Eigen::Vector2d> before;
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    std::map<FeatureId, Eigen::Vector2d> now;
-    const double dt = i == 0 ? 1.0 : to_seconds(frames[i].stamp - frames[i - 1].stamp);
-    for (TrackedFeature& feature : frames[i].features) {
-      const auto old = before.find(feature.id);
-      if (old != before.end()) feature.sighting.velocity = (feature.sighting.point - old->second) / dt;
-      now.emplace(feature.id, feature.sighting.point);
-    }
-    before = std::move(now);
-  }
-}
-
 void read_tracks(const std::filesystem::path& file, TrackSequence& sequence) {
   std::ifstream stream = open(file);
   std::string line;
@@ -94,7 +78,6 @@ void read_tracks(const std::filesystem::path& file, TrackSequence& sequence) {
     if (!fields || sequence.frames.empty()) throw bad_line(file, number);
     sequence.frames.back().features.push_back(feature);
   }
-  add_velocities(sequence.frames);
 }
 
 }  // namespace

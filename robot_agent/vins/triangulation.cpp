@@ -10,14 +10,14 @@ std::optional<double> triangulate(const Window& window, const Landmark& landmark
   if (landmark.observations.size() < 2) return std::nullopt;
   const Observation& host = landmark.observations.front();
   const Pose T_WSi = window.T_WS(window.slot(host.frame));
-  const Eigen::Vector3d f_i = host.sighting.bearing(window.time_offset);
+  const Eigen::Vector3d f_i = host.sighting.bearing();
   // Times lambda: f_j x ( R_ji f_i + lambda t_ji ) = 0, linear in lambda; no trouble at infinity.
   double numerator = 0.0;
   double denominator = 0.0;
   for (std::size_t k = 1; k < landmark.observations.size(); ++k) {
     const Observation& seen = landmark.observations[k];
     const Pose T_ji = window.T_WS(window.slot(seen.frame)).inverse() * T_WSi;
-    const Eigen::Vector3d f_j = seen.sighting.bearing(window.time_offset);
+    const Eigen::Vector3d f_j = seen.sighting.bearing();
     const Eigen::Vector3d a = f_j.cross(T_ji.p);
     const Eigen::Vector3d b = f_j.cross(T_ji.q * f_i);
     numerator -= a.dot(b);

@@ -30,4 +30,8 @@ Eigen::Matrix<double, 6, 6> extrinsics_covariance(const Window& window, const Gr
   return covariance_of({{StateKind::kExtrinsics, 0}}, window, options);
 }
 
+double time_offset_variance(const Window& window, const GraphOptions& options) {
+  return covariance_of({{StateKind::kTimeOffset, 0}}, window, options)(0, 0);
+}
+
 }  // namespace cosight::vins

@@ -15,4 +15,7 @@ Eigen::Matrix<double, 15, 15> state_covariance(const Window& window, const Graph
 /// Covariance of T_BS as [dp (B), dtheta (S)], given everything in the window. It must be estimated.
 Eigen::Matrix<double, 6, 6> extrinsics_covariance(const Window& window, const GraphOptions& options);
 
+/// Variance of the time offset [s^2], given everything in the window. It must be estimated.
+double time_offset_variance(const Window& window, const GraphOptions& options);
+
 }  // namespace cosight::vins

@@ -60,7 +60,7 @@ std::map<FeatureId, std::vector<Ray>> rays(const std::vector<UnplacedFrame>& fra
   std::map<FeatureId, std::vector<Ray>> out;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     for (const TrackedFeature& feature : frames[i].features.features) {
-      out[feature.id].push_back({i, centres[i].R_B0S * feature.sighting.bearing(0.0)});
+      out[feature.id].push_back({i, centres[i].R_B0S * feature.sighting.bearing()});
     }
   }
   return out;

@@ -11,6 +11,7 @@
 
 #include "robot_agent/vins/distance_factor.hpp"
 #include "robot_agent/vins/nav_state.hpp"
+#include "robot_agent/vins/parameter_blocks.hpp"
 #include "robot_agent/vins/preintegration.hpp"
 #include "robot_agent/vins/prior.hpp"
 #include "robot_agent/vins/reprojection_factor.hpp"
@@ -70,11 +71,15 @@ struct Window {
   Prior prior;
 
   std::size_t slot(FrameId id) const;  ///< position in `frames` of a frame that is there
-  Pose T_WS(std::size_t slot) const { return frames[slot].state.T_WB * T_BS; }
+
+  /// How the body moves when a frame's stamp says: its own velocity, and what the gyroscope read about then.
+  BodyTwist twist(std::size_t slot) const;
+  /// The camera when the frame was really taken, `time_offset` later than its stamp says.
+  Pose T_WS(std::size_t slot) const;
 
   /// Unit vector towards a landmark in the axes of the camera that saw it first.
   Eigen::Vector3d ray(const Landmark& landmark) const {
-    return host_bearing(landmark.observations.front().sighting, landmark.beside, time_offset);
+    return host_bearing(landmark.observations.front().sighting, landmark.beside);
   }
 
   /// Adds the observations of the newest frame, which must already be in `frames`.

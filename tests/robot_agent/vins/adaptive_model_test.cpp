@@ -132,7 +132,6 @@ Window window_seen_badly(double off, double seconds_per_frame) {
     Observation seen;
     seen.frame = frame.id;
     seen.sighting.point = {-frame.state.T_WB.p.x() / 5.0, up};
-    seen.sighting.velocity.setZero();
     landmark.observations.push_back(seen);
   }
   window.landmarks.emplace(1, landmark);

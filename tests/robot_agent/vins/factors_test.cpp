@@ -60,8 +60,8 @@ Blocks reprojection_blocks(unsigned seed, double lambda) {
 
 TEST_P(FactorJacobian, OfASightingMatchesCentralDifferencesAlsoAtInfinity) {
   const double seed = GetParam();
-  const Sighting first{{0.3 - 0.05 * seed, 0.1}, {0.4, -0.2}};
-  const Sighting now{{0.25 - 0.05 * seed, 0.13}, {0.5, -0.1}};
+  const MovingSighting first{{{0.3 - 0.05 * seed, 0.1}}, {{3.0, -1.0, 0.4}, {0.3, -0.5, 0.2}}};
+  const MovingSighting now{{{0.25 - 0.05 * seed, 0.13}}, {{2.0, 0.5, -0.2}, {-0.4, 0.1, 0.8}}};
   const ReprojectionFactor factor(first, now, 300.0);
   for (const double lambda : {0.5, 0.05, 0.0}) {
     const Blocks blocks = reprojection_blocks(GetParam(), lambda);
@@ -101,11 +101,11 @@ TEST(ReprojectionFactor, IsZeroWhereTheLandmarkReallyIs) {
     for (const TrackedFeature& now : after.features) {
       if (first.id != now.id) continue;
       // The distance along the first ray by the law of sines.
-      const Eigen::Vector3d ray_i = T_WS.q * first.sighting.bearing(0.0);
-      const Eigen::Vector3d ray_j = T_WSj.q * now.sighting.bearing(0.0);
+      const Eigen::Vector3d ray_i = T_WS.q * first.sighting.bearing();
+      const Eigen::Vector3d ray_j = T_WSj.q * now.sighting.bearing();
       const Eigen::Vector3d b = T_WSj.p - T_WS.p;
       const double distance = ray_j.cross(b).norm() / ray_j.cross(ray_i).norm();
-      const ReprojectionFactor factor(first.sighting, now.sighting, 300.0);
+      const ReprojectionFactor factor({first.sighting}, {now.sighting}, 300.0);
       Blocks blocks = reprojection_blocks(5, 1.0 / distance);
       blocks[3] = {1.0 / distance, 0.0, 0.0};
       blocks[4][0] = 0.0;
@@ -132,10 +132,10 @@ TEST_P(FactorJacobian, OfAKnownDistanceMatchesCentralDifferences) {
 TEST(HostBearing, MovesInTheTangentPlaneOfTheFirstSighting) {
   Sighting first;
   first.point = {0.3, -0.2};
-  EXPECT_LT((host_bearing(first, {0.0, 0.0}, 0.0) - first.bearing(0.0)).norm(), 1e-12);
-  const Eigen::Vector3d moved = host_bearing(first, {0.003, 0.004}, 0.0);
-  EXPECT_NEAR(moved.cross(first.bearing(0.0)).norm(), std::sin(std::atan(0.005)), 1e-9);
-  EXPECT_LT((tangent_basis(first.bearing(0.0)) * moved - Eigen::Vector2d(0.003, 0.004)).norm(), 1e-6);
+  EXPECT_LT((host_bearing(first, {0.0, 0.0}) - first.bearing()).norm(), 1e-12);
+  const Eigen::Vector3d moved = host_bearing(first, {0.003, 0.004});
+  EXPECT_NEAR(moved.cross(first.bearing()).norm(), std::sin(std::atan(0.005)), 1e-9);
+  EXPECT_LT((tangent_basis(first.bearing()) * moved - Eigen::Vector2d(0.003, 0.004)).norm(), 1e-6);
 }
 
 TEST(ReprojectionFactor, MeasuresAnglesInUnitsOfTheirDeviation) {
@@ -146,7 +146,7 @@ TEST(ReprojectionFactor, MeasuresAnglesInUnitsOfTheirDeviation) {
                       {0.1, 0.0, 0.0},
                       {0.0}};
   const double angle = 0.01;
-  const ReprojectionFactor factor({{0.0, 0.0}, {}}, {{std::tan(angle), 0.0}, {}}, 300.0);
+  const ReprojectionFactor factor({{{0.0, 0.0}}}, {{{std::tan(angle), 0.0}}}, 300.0);
   EXPECT_NEAR(evaluate(factor, blocks).norm(), 300.0 * angle, 1e-3);
 }
 

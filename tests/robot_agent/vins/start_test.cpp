@@ -57,7 +57,7 @@ class SlowStart {
     for (std::size_t i = 0; i < points_W_.size(); ++i) {
       const Vector3d p_S = T_SW * points_W_[i];
       if (p_S.z() < 0.5 || std::abs(p_S.x()) > 0.8 * p_S.z() || std::abs(p_S.y()) > 0.6 * p_S.z()) continue;
-      frame.features.push_back({i, {p_S.hnormalized(), Eigen::Vector2d::Zero()}});
+      frame.features.push_back({i, {p_S.hnormalized()}});
       for (int axis = 0; axis < 2; ++axis)
         frame.features.back().sighting.point(axis) += 0.25 / 460.0 * normal_(random_);
     }
