@@ -15,8 +15,8 @@ struct WindowOptions {
   double max_gyroscope_change = 0.1;      ///< bias change that makes the IMU be integrated again [rad/s]
   double max_accelerometer_change = 0.1;  ///< likewise [m/s^2]
   CalibrationUncertainty calibration;     ///< where the calibration is refined
-  /// After a start from nothing, in motion, the guarded mode rests so long: from a wrong state it is the static features
-  /// that bend, and they have to put it right [s].
+  /// After a start from nothing, in motion, the guarded mode rests so long: from a wrong state it is the
+  /// static features that bend, and they have to put it right [s].
   double settling_time = 30.0;
   KeyframeOptions keyframe;
   SolverOptions solver;

@@ -44,12 +44,12 @@ std::vector<bool> acted(WindowOdometry& odometry, SyntheticDrive& drive, double 
   return acts;
 }
 
-std::vector<bool> acted_after_start_from_nothing(double settling_time, int count) {
+std::vector<bool> acted_after_start_from_nothing(double settling_time, int count, bool is_sure = false) {
   SyntheticDrive drive(6);
   Window window = window_at_start(drive);
   EXPECT_FALSE(window.many_bend);
   WindowOdometry odometry(hasty_guard(settling_time), drive.noise, drive.T_BS());
-  odometry.start(std::move(window));
+  odometry.start(std::move(window), is_sure);
   return acted(odometry, drive, kStart, count);
 }
 
@@ -59,6 +59,10 @@ TEST(SettlingTime, OfZeroLetsTheGuardActAtOnce) {
 
 TEST(SettlingTime, OfHalfAMinuteKeepsTheGuardAtRestForASecondAtLeast) {
   EXPECT_EQ(acted_after_start_from_nothing(30.0, 10), std::vector<bool>(10, false));
+}
+
+TEST(SettlingTime, IsNotNeededAfterAStartThatIsSure) {
+  EXPECT_EQ(acted_after_start_from_nothing(30.0, 3, true), std::vector<bool>({true, true, true}));
 }
 
 TEST(SettlingTime, EndsWithTheFirstFrameBehindIt) {
