@@ -35,8 +35,9 @@ class VinsBackEnd {
   /// What slam made of a bundle: its image with the depths that the wearer's view gave, when VINS takes them.
   void push(const FrameBundle& bundle, const FrameEstimate& estimate);
 
-  /// Tells slam's next bundle how the camera moved since the one before, when VINS is to guide slam. Offline
-  /// it waits for what VINS makes of that one's image, so that the answer is always the same.
+  /// Tells slam's next bundle how the camera moved since the one before, when VINS is to guide slam. It waits
+  /// for what VINS makes of that one's image, live for some milliseconds at most, so that the answer is the
+  /// same each time.
   void guide(FrameBundle& bundle);
 
   /// No more samples will come: waits for what is being processed.

@@ -69,11 +69,15 @@ void VinsThread::push_image(Stamp stamp, Decode decode, std::vector<DistanceSigh
 }
 
 void VinsThread::wait_for(Stamp stamp) {
-  if (!options_.never_drop) return;
   std::unique_lock lock(mutex_);
   const auto is_in_work = [&] { return in_work_ && *in_work_ <= stamp; };
   const auto waits = [&] { return can_process() && images_.front().stamp <= stamp; };
-  changed_.wait(lock, [&] { return !is_in_work() && !waits(); });
+  const auto is_done = [&] { return !is_in_work() && !waits(); };
+  if (options_.never_drop) {
+    changed_.wait(lock, is_done);
+  } else {
+    changed_.wait_for(lock, options_.patience, is_done);
+  }
 }
 
 void VinsThread::finish() {

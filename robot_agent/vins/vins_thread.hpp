@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
@@ -20,9 +21,10 @@ namespace cosight::vins {
 struct VinsThreadOptions {
   VinsOptions vins;
   FeatureTrackerOptions tracker;
-  std::size_t max_images = 4;          ///< waiting; more delay, or more frames lost when it is too slow
-  std::size_t max_imu_samples = 4000;  ///< waiting for an image: 20 s at 200 Hz
-  double max_distance_apart_px = 2.0;  ///< a known distance is a feature's that is so near in the image
+  std::size_t max_images = 4;              ///< waiting; more delay, or more frames lost when it is too slow
+  std::size_t max_imu_samples = 4000;      ///< waiting for an image: 20 s at 200 Hz
+  double max_distance_apart_px = 2.0;      ///< a known distance is a feature's that is so near in the image
+  std::chrono::milliseconds patience{20};  ///< of live input with images that are being processed
   bool never_drop = false;  ///< a full queue makes whoever pushes wait: for input that can be paused
 };
 
@@ -60,8 +62,8 @@ class VinsThread {
   /// `distances`: what others know of places of the image.
   void push_image(Stamp stamp, Decode decode, std::vector<DistanceSighting> distances = {});
 
-  /// With `never_drop`: until no image up to `stamp` waits any more, but for those that the IMU's samples do
-  /// not reach yet.
+  /// Until no image up to `stamp` waits any more, but for those that the IMU's samples do not reach yet;
+  /// without `never_drop` no longer than `patience`.
   void wait_for(Stamp stamp);
 
   /// No more samples will come: processes what waits, as far as the IMU reaches, and ends the thread.
