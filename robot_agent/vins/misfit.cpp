@@ -26,10 +26,11 @@ double misfit(const Window& window, const Landmark& landmark) {
 }
 
 /// Slow, so that ten seconds between moving vehicles raise it by a third only; slower up than down, since
-/// disturbances only add.
-void follow_usual_misfit(Window& window) {
-  constexpr double kUp = 0.03;   // [1/s]
-  constexpr double kDown = 0.1;  // [1/s]
+/// disturbances only add. It begins with what the first window had, which after a start from rest is hardly
+/// any: until it is learned it rises fast.
+void follow_usual_misfit(Window& window, bool is_learned) {
+  const double kUp = is_learned ? 0.03 : 0.3;  // [1/s]
+  constexpr double kDown = 0.1;                // [1/s]
   if (window.usual_misfit <= 0.0) window.usual_misfit = window.typical_misfit;
   const std::size_t count = window.frames.size();
   if (count < 2) return;
@@ -39,7 +40,7 @@ void follow_usual_misfit(Window& window) {
 
 }  // namespace
 
-void measure_misfits(Window& window, std::size_t min_observations) {
+void measure_misfits(Window& window, std::size_t min_observations, bool is_learned) {
   std::vector<double> known;
   for (auto& [id, landmark] : window.landmarks) {
     landmark.misfit = window.is_used(landmark, min_observations) ? misfit(window, landmark) : 0.0;
@@ -50,7 +51,7 @@ void measure_misfits(Window& window, std::size_t min_observations) {
   const auto middle = known.begin() + static_cast<std::ptrdiff_t>(known.size() / 2);
   std::nth_element(known.begin(), middle, known.end());
   window.typical_misfit = *middle;
-  follow_usual_misfit(window);
+  follow_usual_misfit(window, is_learned);
 }
 
 void watch_for_movers(Window& window, const TrustOptions& options) {

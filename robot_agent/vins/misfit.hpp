@@ -12,8 +12,8 @@ namespace cosight::vins {
 /// Fills in Landmark::misfit and Window::typical_misfit, their median. A point on a moving vehicle bends away
 /// from every static explanation; the median is the noise of the static majority, whatever the camera. Before
 /// a red light the static ones may be few, and the median is that of the vehicles: so the median's own usual
-/// value is followed too, over a minute, as Window::usual_misfit.
-void measure_misfits(Window& window, std::size_t min_observations);
+/// value is followed too, over a minute, as Window::usual_misfit; within seconds until it `is_learned`.
+void measure_misfits(Window& window, std::size_t min_observations, bool is_learned = true);
 
 /// Whether so many landmarks bend away that the guarded mode has to act: sets Window::many_bend when the
 /// share of landmarks whose misfit is above `misfit_width` times the reference goes over `many_bend_on`, and

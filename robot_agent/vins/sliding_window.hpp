@@ -18,6 +18,8 @@ struct WindowOptions {
   /// After a start from nothing, in motion, the guarded mode rests so long: from a wrong state it is the
   /// static features that bend, and they have to put it right [s].
   double settling_time = 30.0;
+  /// After any start from nothing it rests so long at least, until it has learned what misfit is usual [s].
+  double learning_time = 10.0;
   KeyframeOptions keyframe;
   SolverOptions solver;
 };

@@ -41,7 +41,7 @@ void WindowOdometry::start(const FeatureFrame& frame, const NavState& state,
                            const StartUncertainty& uncertainty) {
   const Pose T_BS = window_.T_BS;
   window_ = Window();
-  settled_ = frame.stamp;
+  learned_ = settled_ = frame.stamp;
   window_.T_BS = T_BS;
   WindowFrame first;
   first.stamp = frame.stamp;
@@ -54,7 +54,9 @@ void WindowOdometry::start(const FeatureFrame& frame, const NavState& state,
 
 void WindowOdometry::start(Window window, bool is_sure) {
   window_ = std::move(window);
-  settled_ = window_.frames.back().stamp + from_seconds(is_sure ? 0.0 : options_.settling_time);
+  const Stamp now = window_.frames.back().stamp;
+  learned_ = now + from_seconds(options_.learning_time);
+  settled_ = is_sure ? learned_ : std::max(learned_, now + from_seconds(options_.settling_time));
   while (window_.frames.size() >= options_.size)
     slide(window_, true, options_);
 }
@@ -78,7 +80,7 @@ WindowReport WindowOdometry::process(const FeatureFrame& frame, std::vector<ImuS
 
   triangulate_all(window_, graph.min_observations, options_.default_distance);
   update_geometry_factors(window_);
-  measure_misfits(window_, graph.min_observations);
+  measure_misfits(window_, graph.min_observations, frame.stamp >= learned_);
   if (frame.stamp >= settled_) watch_for_movers(window_, graph.trust);
   const Stopwatch solve_time;
   report.solve = solve(window_, options_.solver);

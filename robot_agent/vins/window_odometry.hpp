@@ -37,7 +37,7 @@ class WindowOdometry {
   void start(const FeatureFrame& frame, const NavState& state, const StartUncertainty& uncertainty);
 
   /// Starts anew with the frames, landmarks and states of an initialisation. `is_sure`: they can't be quite
-  /// wrong, so that the guarded mode may act at once.
+  /// wrong, so that the guarded mode need not rest for `settling_time`.
   void start(Window window, bool is_sure = false);
 
   /// The newest state right after such a start.
@@ -52,6 +52,7 @@ class WindowOdometry {
   WindowOptions options_;
   ImuNoise noise_;
   Window window_;
+  Stamp learned_ = 0;  ///< from then on the usual misfit is known
   Stamp settled_ = 0;  ///< from then on the guarded mode may act
 };
 

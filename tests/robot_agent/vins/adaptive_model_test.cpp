@@ -145,6 +145,16 @@ TEST(MeasureMisfits, TellsHowFarSightingsAreFromAPoint) {
   EXPECT_NEAR(window.typical_misfit, 1e-3, 2e-5);
 }
 
+TEST(MeasureMisfits, LearnsWhatIsUsualWithinSeconds) {
+  constexpr double dt = 0.1;
+  Window window = window_seen_badly(1e-3, dt);
+  measure_misfits(window, 4);
+  window.landmarks = window_seen_badly(5e-3, dt).landmarks;
+  for (double t = 0.0; t < 10.0; t += dt)
+    measure_misfits(window, 4, false);
+  EXPECT_NEAR(window.usual_misfit, window.typical_misfit, 0.05 * window.typical_misfit);
+}
+
 TEST(MeasureMisfits, FollowsWhatIsUsualSlowly) {
   constexpr double dt = 0.1;
   Window window = window_seen_badly(1e-3, dt);

@@ -24,8 +24,9 @@ Window window_at_start(SyntheticDrive& drive) {
 }
 
 /// A guard that acts with any noise: a tenth of the usual misfit is too much, and one in a hundred is many.
-WindowOptions hasty_guard(double settling_time) {
+WindowOptions hasty_guard(double settling_time, double learning_time = 0.0) {
   WindowOptions options;
+  options.learning_time = learning_time;
   options.settling_time = settling_time;
   options.solver.graph.trust.mode = TrustMode::kGuarded;
   options.solver.graph.trust.misfit_width = 0.1;
@@ -44,29 +45,36 @@ std::vector<bool> acted(WindowOdometry& odometry, SyntheticDrive& drive, double 
   return acts;
 }
 
-std::vector<bool> acted_after_start_from_nothing(double settling_time, int count, bool is_sure = false) {
+std::vector<bool> acted_after_start_from_nothing(const WindowOptions& options, int count,
+                                                 bool is_sure = false) {
   SyntheticDrive drive(6);
   Window window = window_at_start(drive);
   EXPECT_FALSE(window.many_bend);
-  WindowOdometry odometry(hasty_guard(settling_time), drive.noise, drive.T_BS());
+  WindowOdometry odometry(options, drive.noise, drive.T_BS());
   odometry.start(std::move(window), is_sure);
   return acted(odometry, drive, kStart, count);
 }
 
 TEST(SettlingTime, OfZeroLetsTheGuardActAtOnce) {
-  EXPECT_EQ(acted_after_start_from_nothing(0.0, 3), std::vector<bool>({true, true, true}));
+  EXPECT_EQ(acted_after_start_from_nothing(hasty_guard(0.0), 3), std::vector<bool>({true, true, true}));
 }
 
 TEST(SettlingTime, OfHalfAMinuteKeepsTheGuardAtRestForASecondAtLeast) {
-  EXPECT_EQ(acted_after_start_from_nothing(30.0, 10), std::vector<bool>(10, false));
+  EXPECT_EQ(acted_after_start_from_nothing(hasty_guard(30.0), 10), std::vector<bool>(10, false));
 }
 
 TEST(SettlingTime, IsNotNeededAfterAStartThatIsSure) {
-  EXPECT_EQ(acted_after_start_from_nothing(30.0, 3, true), std::vector<bool>({true, true, true}));
+  EXPECT_EQ(acted_after_start_from_nothing(hasty_guard(30.0), 3, true),
+            std::vector<bool>({true, true, true}));
+}
+
+TEST(LearningTime, KeepsTheGuardAtRestAfterASureStartToo) {
+  EXPECT_EQ(acted_after_start_from_nothing(hasty_guard(0.0, 0.35), 5, true),
+            std::vector<bool>({false, false, false, true, true}));
 }
 
 TEST(SettlingTime, EndsWithTheFirstFrameBehindIt) {
-  EXPECT_EQ(acted_after_start_from_nothing(0.35, 6),
+  EXPECT_EQ(acted_after_start_from_nothing(hasty_guard(0.35), 6),
             std::vector<bool>({false, false, false, true, true, true}));
 }
 
